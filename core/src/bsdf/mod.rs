@@ -1,0 +1,96 @@
+//! Reflection: one file per model.
+//!
+//! Directions are unit vectors in the local frame of the surface (`z` is the shading normal) and
+//! point away from it. A model describes the side that `z` points to; [`TwoSided`] gives a surface
+//! one on each side.
+
+mod error;
+mod ggx;
+mod lambert;
+mod phong;
+mod two_sided;
+
+pub use error::BsdfError;
+pub use ggx::GgxConductor;
+pub use lambert::Lambert;
+pub use phong::Phong;
+pub use two_sided::TwoSided;
+
+use crate::Rgb;
+use glam::Vec3;
+
+/// A direction drawn from a BSDF.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BsdfSample {
+    /// Unit direction, local.
+    pub wi: Vec3,
+    /// Density with which it was drawn [sr⁻¹]; finite and positive.
+    pub pdf_solid_angle: f32,
+}
+
+/// A model of reflection.
+///
+/// The density of a sample is [`Bsdf::pdf_solid_angle`] of its direction: one function for both.
+pub trait Bsdf: Copy {
+    /// `f_r(wo, wi)` without the cosine [sr⁻¹]; 0 when either direction is not above the surface.
+    fn eval(&self, wo: Vec3, wi: Vec3) -> Rgb;
+
+    /// Draws `wi`; `None` when nothing is reflected.
+    ///
+    /// * `u` – two uniforms for the direction, `u_lobe` one for the choice among lobes; in `[0, 1)`
+    fn sample(&self, wo: Vec3, u: [f32; 2], u_lobe: f32) -> Option<BsdfSample>;
+
+    /// Density with which [`Bsdf::sample`] draws `wi` [sr⁻¹]; 0 where it never does.
+    fn pdf_solid_angle(&self, wo: Vec3, wi: Vec3) -> f32;
+
+    /// Fraction of the light that is reflected, roughly: for images of albedo, not for transport.
+    fn albedo(&self) -> Rgb;
+
+    /// True when nothing is reflected in any direction, so that no light need be sampled.
+    fn is_black(&self) -> bool {
+        self.albedo().is_black()
+    }
+}
+
+/// Any of the models: what a frontend that reads arbitrary scenes uses.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum AnyBsdf {
+    /// Matte.
+    Lambert(Lambert),
+    /// Matte with a glossy highlight.
+    Phong(Phong),
+    /// A rough metal.
+    GgxConductor(GgxConductor),
+}
+
+/// The only list of variants; every method goes through it.
+macro_rules! each_bsdf {
+    ($bsdf:expr, $inner:ident => $body:expr) => {
+        match $bsdf {
+            AnyBsdf::Lambert($inner) => $body,
+            AnyBsdf::Phong($inner) => $body,
+            AnyBsdf::GgxConductor($inner) => $body,
+        }
+    };
+}
+
+impl Bsdf for AnyBsdf {
+    #[inline]
+    fn eval(&self, wo: Vec3, wi: Vec3) -> Rgb {
+        each_bsdf!(self, b => b.eval(wo, wi))
+    }
+
+    #[inline]
+    fn sample(&self, wo: Vec3, u: [f32; 2], u_lobe: f32) -> Option<BsdfSample> {
+        each_bsdf!(self, b => b.sample(wo, u, u_lobe))
+    }
+
+    #[inline]
+    fn pdf_solid_angle(&self, wo: Vec3, wi: Vec3) -> f32 {
+        each_bsdf!(self, b => b.pdf_solid_angle(wo, wi))
+    }
+
+    fn albedo(&self) -> Rgb {
+        each_bsdf!(self, b => b.albedo())
+    }
+}

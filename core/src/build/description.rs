@@ -1,0 +1,191 @@
+//! A scene as its author thinks of it: named things in world space, owned, easy to make and to edit.
+//!
+//! Loaders and the built-in scenes make one, exporters write one, and `SceneBuffers` (beside this
+//! file) turns it into the tables that a renderer borrows.
+
+use crate::Rgb;
+use crate::bsdf::{AnyBsdf, TwoSided};
+use crate::camera::{Camera, CameraError, View};
+use crate::film::Filter;
+use crate::light::AnyLight;
+use crate::num;
+use crate::shape::AnyShape;
+use glam::Vec3;
+use std::string::String;
+use std::vec::Vec;
+
+/// A whole scene.
+#[derive(Debug, Clone)]
+pub struct Description {
+    /// Name for reports: the file's stem, or the built-in scene's name.
+    pub name: String,
+    /// What looks at it.
+    pub camera: CameraDescription,
+    /// Columns of the picture.
+    pub width: u32,
+    /// Rows of the picture.
+    pub height: u32,
+    /// Reconstruction filter.
+    pub filter: Filter,
+    /// How its author wants it integrated.
+    pub integrator: IntegratorDescription,
+    /// Samples per pixel that its author wants; `None` leaves it to the program.
+    pub samples_per_pixel: Option<u32>,
+    /// Materials; objects refer to them by index.
+    pub materials: Vec<Material>,
+    /// Surfaces, some of which emit.
+    pub objects: Vec<Object>,
+    /// Lights without a surface: point, spot, directional, constant.
+    pub lights: Vec<AnyLight>,
+}
+
+/// How the direct light is to be integrated, as far as the author says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct IntegratorDescription {
+    /// Light samples per camera sample.
+    pub light_samples: Option<u32>,
+    /// BSDF samples per camera sample.
+    pub bsdf_samples: Option<u32>,
+}
+
+/// A named material.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Material {
+    /// Its name; unique when not empty.
+    pub name: String,
+    /// What the sides do.
+    pub bsdf: TwoSided<AnyBsdf>,
+}
+
+/// A surface in the scene.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Object {
+    /// Name for messages and for exported files.
+    pub name: String,
+    /// Its form, in world space.
+    pub geometry: Geometry,
+    /// Index into the materials.
+    pub material: usize,
+    /// What it emits.
+    pub emission: Option<Emission>,
+}
+
+/// What a surface emits.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Emission {
+    /// Radiance [W m⁻² sr⁻¹].
+    pub radiance: Rgb,
+    /// From both sides, or only from the front.
+    pub two_sided: bool,
+}
+
+/// The form of an object, in world space.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Geometry {
+    /// One analytic shape.
+    Shape(AnyShape),
+    /// Triangles.
+    Mesh(Mesh),
+}
+
+/// Triangles with shared corners.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Mesh {
+    /// Corners [m].
+    pub positions: Vec<Vec3>,
+    /// A shading normal for each corner, of unit length; empty for flat shading.
+    pub normals: Vec<Vec3>,
+    /// Indices of corners, counter-clockwise seen from the front.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+/// A camera whose picture may still change its shape.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CameraDescription {
+    /// Place and turn.
+    pub view: View,
+    /// Perspective or orthographic.
+    pub projection: ProjectionDescription,
+    /// Near clipping distance [m].
+    pub near: f32,
+    /// Far clipping distance [m].
+    pub far: f32,
+}
+
+/// How the camera projects.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ProjectionDescription {
+    /// Rays through one point.
+    Perspective {
+        /// Full field of view along `axis` [degrees], in (0, 180).
+        fov: f32,
+        /// Which extent of the picture `fov` is measured along.
+        axis: FovAxis,
+    },
+    /// Parallel rays.
+    Orthographic {
+        /// Half of the window's width [m].
+        half_width: f32,
+    },
+}
+
+/// Which extent of the picture a field of view is measured along.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum FovAxis {
+    /// Its width.
+    #[default]
+    X,
+    /// Its height.
+    Y,
+    /// Its diagonal.
+    Diagonal,
+    /// The shorter of width and height.
+    Smaller,
+    /// The longer of width and height.
+    Larger,
+}
+
+impl CameraDescription {
+    /// The camera for a picture of `width` × `height` pixels.
+    ///
+    /// # Errors
+    /// When the field of view, the window or the clipping distances make no picture.
+    pub fn camera(&self, width: u32, height: u32) -> Result<Camera, CameraError> {
+        let aspect = width as f32 / height as f32;
+        let camera = match self.projection {
+            ProjectionDescription::Perspective { fov, axis } => {
+                if !(fov > 0.0 && fov < 180.0) {
+                    return Err(CameraError::Extent(fov));
+                }
+                let tangent = num::tan(0.5 * fov.to_radians());
+                let half_width = match axis {
+                    FovAxis::X => tangent,
+                    FovAxis::Y => tangent * aspect,
+                    FovAxis::Diagonal => tangent * aspect / num::sqrt(1.0 + aspect * aspect),
+                    FovAxis::Smaller => tangent * aspect.max(1.0),
+                    FovAxis::Larger => tangent * aspect.min(1.0),
+                };
+                Camera::perspective(self.view, half_width, half_width / aspect)?
+            }
+            ProjectionDescription::Orthographic { half_width } => {
+                Camera::orthographic(self.view, half_width, half_width / aspect)?
+            }
+        };
+        camera.with_clip(self.near, self.far)
+    }
+}
+
+impl Description {
+    /// Number of triangles, those of meshes included.
+    #[must_use]
+    pub fn triangle_count(&self) -> usize {
+        self.objects
+            .iter()
+            .map(|o| match &o.geometry {
+                Geometry::Mesh(m) => m.triangles.len(),
+                Geometry::Shape(AnyShape::Triangle(_)) => 1,
+                Geometry::Shape(_) => 0,
+            })
+            .sum()
+    }
+}

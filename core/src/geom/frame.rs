@@ -1,0 +1,102 @@
+//! An orthonormal basis around a normal.
+
+use crate::num;
+use glam::Vec3;
+
+/// A right-handed orthonormal basis whose third axis is the normal. In the local frame the cosine
+/// to the normal is simply `z`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Frame {
+    /// First tangent.
+    pub s: Vec3,
+    /// Second tangent.
+    pub t: Vec3,
+    /// The normal.
+    pub n: Vec3,
+}
+
+impl Frame {
+    /// Builds a basis around the unit vector `n`, for every `n`, `−z` included.
+    ///
+    /// Source: Duff et al. 2017, *Building an Orthonormal Basis, Revisited*, JCGT 6(1), listing 3.
+    #[inline]
+    #[must_use]
+    pub fn from_normal(n: Vec3) -> Self {
+        let sign = 1.0_f32.copysign(n.z);
+        let a = -1.0 / (sign + n.z);
+        let b = n.x * n.y * a;
+        Self {
+            s: Vec3::new(1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x),
+            t: Vec3::new(b, sign + n.y * n.y * a, -n.y),
+            n,
+        }
+    }
+
+    /// From world to local coordinates.
+    #[inline]
+    #[must_use]
+    pub fn to_local(&self, v: Vec3) -> Vec3 {
+        Vec3::new(v.dot(self.s), v.dot(self.t), v.dot(self.n))
+    }
+
+    /// From local to world coordinates.
+    #[inline]
+    #[must_use]
+    pub fn to_world(&self, v: Vec3) -> Vec3 {
+        self.s * v.x + self.t * v.y + self.n * v.z
+    }
+}
+
+/// Unit vector in the direction of `v`, or `None` when `v` has no usable direction
+/// (zero, infinite or NaN). Scales first, so that neither 1e-30 nor 1e30 is lost.
+#[inline]
+#[must_use]
+pub(crate) fn unit(v: Vec3) -> Option<Vec3> {
+    let scale = v.abs().max_element();
+    if !(scale > 0.0 && scale < f32::INFINITY) {
+        return None;
+    }
+    // A power of two near 1/scale would be exact; division is good to one rounding and total.
+    let w = v / scale;
+    Some(w / num::sqrt(w.length_squared()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn axes_and_signed_zeros_give_orthonormal_bases() {
+        for n in
+            [Vec3::X, Vec3::NEG_X, Vec3::Y, Vec3::NEG_Y, Vec3::Z, Vec3::NEG_Z, Vec3::new(0.0, -0.0, -1.0)]
+        {
+            let f = Frame::from_normal(n);
+            assert!((f.s.cross(f.t) - f.n).length() < 1e-6, "{n}");
+            assert!((f.s.length() - 1.0).abs() < 1e-6);
+        }
+    }
+
+    #[test]
+    fn random_normals_give_orthonormal_bases() {
+        for i in 0..1_000_000u32 {
+            let u = num::unit_f32(num::hash(i));
+            let v = num::unit_f32(num::hash2(i, 1));
+            let n = crate::warp::uniform_sphere([u, v]);
+            let f = Frame::from_normal(n);
+            let err = f.s.dot(f.t).abs().max(f.s.dot(n).abs()).max((f.t.length() - 1.0).abs());
+            assert!(err < 1e-6, "{n} {err}");
+            assert!((f.to_world(f.to_local(Vec3::X)) - Vec3::X).length() < 2e-6);
+        }
+    }
+
+    #[test]
+    fn unit_keeps_extreme_lengths_and_refuses_no_direction() {
+        for s in [1e-38, 1e-20, 1.0, 1e20, 1e38] {
+            let n = unit(Vec3::new(1.0, 2.0, -2.0) * s).unwrap();
+            assert!((n - Vec3::new(1.0, 2.0, -2.0) / 3.0).length() < 1e-6, "{s}");
+        }
+        assert_eq!(unit(Vec3::ZERO), None);
+        assert_eq!(unit(Vec3::NAN), None);
+        assert_eq!(unit(Vec3::INFINITY), None);
+    }
+}

@@ -1,0 +1,20 @@
+//! Sampling a disk or an ellipse.
+
+use super::SampledShape;
+use crate::shape::{Disk, SurfacePoint};
+use crate::warp;
+use glam::{Vec2, Vec3};
+
+impl SampledShape for Disk {
+    /// Density `1 / (π a b)` [m⁻²]; the concentric map, stretched along the axes.
+    #[inline]
+    fn sample_area(&self, u: [f32; 2]) -> SurfacePoint {
+        let p = warp::square_to_disk(u);
+        self.point(p.x, p.y)
+    }
+
+    fn sample_area_inverse(&self, point: Vec3) -> [f32; 2] {
+        let (a, b) = self.coordinates(point);
+        warp::disk_to_square(Vec2::new(a, b))
+    }
+}

@@ -1,0 +1,60 @@
+//! Why a light was refused.
+
+use crate::Rgb;
+use core::fmt;
+
+/// Why a light was refused.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum LightError {
+    /// A number is NaN or infinite.
+    NotFinite {
+        /// Which argument.
+        field: &'static str,
+    },
+    /// A channel of the emission is below 0.
+    NegativeEmission {
+        /// The emission.
+        emission: Rgb,
+    },
+    /// A direction has no length.
+    NoDirection,
+    /// The angles of a spot are not `0 ≤ beam ≤ cutoff ≤ π`, `cutoff > 0`.
+    Angles {
+        /// Half-angle of full intensity [rad].
+        beam: f32,
+        /// Half-angle beyond which nothing is sent [rad].
+        cutoff: f32,
+    },
+}
+
+impl fmt::Display for LightError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotFinite { field } => write!(f, "{field} is not a finite number"),
+            Self::NegativeEmission { emission: Rgb { r, g, b } } => {
+                write!(f, "the emission ({r}, {g}, {b}) is negative; channels must be 0 or more")
+            }
+            Self::NoDirection => write!(f, "the direction has no length"),
+            Self::Angles { beam, cutoff } => write!(
+                f,
+                "the spot's angles must satisfy 0 ≤ beam ≤ cutoff ≤ 180°, cutoff > 0; they are {} and {}",
+                beam.to_degrees(),
+                cutoff.to_degrees()
+            ),
+        }
+    }
+}
+
+impl core::error::Error for LightError {}
+
+/// Checks what every light has: an emission.
+pub(super) fn check_emission(field: &'static str, emission: Rgb) -> Result<Rgb, LightError> {
+    if !emission.is_finite() {
+        return Err(LightError::NotFinite { field });
+    }
+    if !emission.is_valid() {
+        return Err(LightError::NegativeEmission { emission });
+    }
+    Ok(emission)
+}

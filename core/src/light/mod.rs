@@ -1,0 +1,218 @@
+//! Lights: one file each, with its radiometry, its densities and its sampler.
+//!
+//! Surfaces that emit are an [`AreaLight`] over a [`SampledShape`]; the shape's file here says how
+//! its surface is sampled. To add a light: its file, a variant and an arm below, and a line in the
+//! conformance suite.
+
+mod area;
+mod constant;
+mod cylinder;
+mod directional;
+mod disk;
+mod error;
+mod point;
+mod rectangle;
+mod sphere;
+mod spot;
+mod triangle;
+
+pub use area::{AreaLight, SampledShape, SurfaceDensity, SurfaceSample};
+pub use constant::Constant;
+pub use directional::Directional;
+pub use error::LightError;
+pub use point::Point;
+pub use spot::Spot;
+
+use crate::Rgb;
+use crate::shape::{Cylinder, Disk, Rectangle, Sphere, SurfacePoint, Triangle};
+use glam::Vec3;
+
+/// Where light is gathered.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Receiver {
+    /// The point [m].
+    pub point: Vec3,
+    /// Unit normal on the side that is looked at.
+    pub normal: Vec3,
+}
+
+/// How likely a direction was to be drawn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Density {
+    /// Over solid angle at the receiver [sr⁻¹]; finite and positive. The incident quantity is radiance.
+    SolidAngle(f32),
+    /// No ray meets this light by chance, so nothing is weighted against it. The incident quantity
+    /// is the irradiance on a surface that faces the light [W m⁻²].
+    Delta,
+}
+
+/// A direction toward a light, and what arrives from there when nothing is in the way.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LightSample {
+    /// Unit direction from the receiver to the light.
+    pub wi: Vec3,
+    /// How far the light is [m]; infinite for lights without a place.
+    pub distance: f32,
+    /// Radiance [W m⁻² sr⁻¹], or irradiance [W m⁻²] of a delta light.
+    pub incident: Rgb,
+    /// How likely `wi` was.
+    pub density: Density,
+}
+
+/// A source of light.
+///
+/// Samplers are total: "no light from here" is `None`, and a density that is returned is finite and
+/// positive. What [`Emitter::sample`] returns as density is what [`Emitter::pdf_solid_angle`] or
+/// [`Emitter::pdf_escaping`] returns for that direction.
+pub trait Emitter: Copy {
+    /// Draws a direction from which light may arrive at `from`.
+    ///
+    /// * `method` – how a surface is sampled; other lights have only one way
+    /// * `u` – two independent uniforms, each in `[0, 1)`
+    fn sample(&self, from: &Receiver, method: SurfaceDensity, u: [f32; 2]) -> Option<LightSample>;
+
+    /// Density with which [`Emitter::sample`] draws the direction `wi` that meets the light's
+    /// surface at `at` [sr⁻¹]; 0 where it never does.
+    fn pdf_solid_angle(&self, from: &Receiver, method: SurfaceDensity, wi: Vec3, at: &SurfacePoint) -> f32 {
+        let _ = (from, method, wi, at);
+        0.0
+    }
+
+    /// Density with which [`Emitter::sample`] draws the direction `wi` that meets nothing [sr⁻¹];
+    /// 0 unless the light is an environment.
+    fn pdf_escaping(&self, from: &Receiver, wi: Vec3) -> f32 {
+        let _ = (from, wi);
+        0.0
+    }
+
+    /// Radiance that a surface point of the light with front normal `normal` sends toward the unit
+    /// direction `wo` [W m⁻² sr⁻¹].
+    fn radiance(&self, normal: Vec3, wo: Vec3) -> Rgb {
+        let _ = (normal, wo);
+        Rgb::BLACK
+    }
+
+    /// Radiance that arrives along `wi` from beyond all surfaces [W m⁻² sr⁻¹].
+    fn radiance_escaping(&self, wi: Vec3) -> Rgb {
+        let _ = wi;
+        Rgb::BLACK
+    }
+
+    /// True for a light that surrounds the scene.
+    fn is_environment(&self) -> bool {
+        false
+    }
+
+    /// True for a light that no ray meets by chance.
+    fn is_delta(&self) -> bool {
+        false
+    }
+
+    /// Power into a scene that fits a sphere of `scene_radius` [m], as average over the channels [W].
+    /// Used for choosing among lights; positive for every light that emits.
+    fn power(&self, scene_radius: f32) -> f32;
+}
+
+/// Any of the lights: what a frontend that reads arbitrary scenes uses.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum AnyLight {
+    /// A rectangle that emits.
+    Rectangle(AreaLight<Rectangle>),
+    /// A disk or ellipse that emits.
+    Disk(AreaLight<Disk>),
+    /// A sphere that emits.
+    Sphere(AreaLight<Sphere>),
+    /// A triangle that emits.
+    Triangle(AreaLight<Triangle>),
+    /// A cylinder that emits.
+    Cylinder(AreaLight<Cylinder>),
+    /// A point.
+    Point(Point),
+    /// A point with a cone.
+    Spot(Spot),
+    /// Parallel light.
+    Directional(Directional),
+    /// The same radiance from everywhere.
+    Constant(Constant),
+}
+
+/// The only list of variants; every method goes through it.
+macro_rules! each_light {
+    ($light:expr, $inner:ident => $body:expr) => {
+        match $light {
+            AnyLight::Rectangle($inner) => $body,
+            AnyLight::Disk($inner) => $body,
+            AnyLight::Sphere($inner) => $body,
+            AnyLight::Triangle($inner) => $body,
+            AnyLight::Cylinder($inner) => $body,
+            AnyLight::Point($inner) => $body,
+            AnyLight::Spot($inner) => $body,
+            AnyLight::Directional($inner) => $body,
+            AnyLight::Constant($inner) => $body,
+        }
+    };
+}
+
+impl AnyLight {
+    /// The kinds of light, by name.
+    pub const NAMES: [&'static str; 9] =
+        ["rectangle", "disk", "sphere", "triangle", "cylinder", "point", "spot", "directional", "constant"];
+
+    /// The name of this kind of light.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        let index = match self {
+            Self::Rectangle(_) => 0,
+            Self::Disk(_) => 1,
+            Self::Sphere(_) => 2,
+            Self::Triangle(_) => 3,
+            Self::Cylinder(_) => 4,
+            Self::Point(_) => 5,
+            Self::Spot(_) => 6,
+            Self::Directional(_) => 7,
+            Self::Constant(_) => 8,
+        };
+        Self::NAMES[index]
+    }
+}
+
+impl Emitter for AnyLight {
+    #[inline]
+    fn sample(&self, from: &Receiver, method: SurfaceDensity, u: [f32; 2]) -> Option<LightSample> {
+        each_light!(self, l => l.sample(from, method, u))
+    }
+
+    #[inline]
+    fn pdf_solid_angle(&self, from: &Receiver, method: SurfaceDensity, wi: Vec3, at: &SurfacePoint) -> f32 {
+        each_light!(self, l => l.pdf_solid_angle(from, method, wi, at))
+    }
+
+    #[inline]
+    fn pdf_escaping(&self, from: &Receiver, wi: Vec3) -> f32 {
+        each_light!(self, l => l.pdf_escaping(from, wi))
+    }
+
+    #[inline]
+    fn radiance(&self, normal: Vec3, wo: Vec3) -> Rgb {
+        each_light!(self, l => l.radiance(normal, wo))
+    }
+
+    #[inline]
+    fn radiance_escaping(&self, wi: Vec3) -> Rgb {
+        each_light!(self, l => l.radiance_escaping(wi))
+    }
+
+    #[inline]
+    fn is_environment(&self) -> bool {
+        each_light!(self, l => l.is_environment())
+    }
+
+    #[inline]
+    fn is_delta(&self) -> bool {
+        each_light!(self, l => l.is_delta())
+    }
+
+    fn power(&self, scene_radius: f32) -> f32 {
+        each_light!(self, l => l.power(scene_radius))
+    }
+}

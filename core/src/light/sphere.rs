@@ -1,0 +1,114 @@
+//! Sampling a sphere: its whole surface, or the cone that it fills.
+
+use super::{Receiver, SampledShape, SurfaceDensity, SurfaceSample};
+use crate::geom::{Frame, unit};
+use crate::measure::area_to_solid_angle;
+use crate::num;
+use crate::shape::{Shape, Sphere, SurfacePoint};
+use crate::warp;
+use glam::Vec3;
+
+/// The cone in which a sphere is seen from outside.
+struct Cone {
+    axis: Vec3,
+    /// Distance to the centre [m].
+    distance: f32,
+    /// `sin² θ_max`.
+    sin2_max: f32,
+}
+
+impl Cone {
+    /// `None` from inside or from the surface.
+    #[inline]
+    fn new(sphere: &Sphere, from: Vec3) -> Option<Self> {
+        let v = sphere.centre() - from;
+        let axis = unit(v)?;
+        let distance = v.dot(axis);
+        if distance <= sphere.radius() {
+            return None;
+        }
+        let sin_max = sphere.radius() / distance;
+        Some(Self { axis, distance, sin2_max: sin_max * sin_max })
+    }
+
+    /// `1 − cos θ_max = s² / (1 + √(1 − s²))`: no cancellation for any size.
+    #[inline]
+    fn one_minus_cos_max(&self) -> f32 {
+        self.sin2_max / (1.0 + num::sqrt(1.0 - self.sin2_max))
+    }
+
+    /// Outward normal of the sphere where the local direction `d` first meets it.
+    ///
+    /// Source: Pharr, Jakob, Humphreys 2023, section 6.2.4: with `β` the angle at the centre,
+    /// `cos β = sin² θ / s + cos θ √(1 − sin² θ / s²)`, s = sin θ_max.
+    #[inline]
+    fn normal_at(&self, d: Vec3) -> Vec3 {
+        let sin2 = d.x * d.x + d.y * d.y;
+        let sin_max = num::sqrt(self.sin2_max);
+        let cos_beta = sin2 / sin_max + d.z * num::sqrt(1.0 - sin2 / self.sin2_max);
+        let sin_beta = num::sqrt((1.0 - cos_beta) * (1.0 + cos_beta));
+        // Azimuth of d; a zero-length d.xy means β = 0 and any azimuth will do.
+        let across = num::sqrt(sin2).max(f32::MIN_POSITIVE);
+        let local = Vec3::new(d.x / across * sin_beta, d.y / across * sin_beta, -cos_beta);
+        Frame::from_normal(self.axis).to_world(local)
+    }
+}
+
+impl SampledShape for Sphere {
+    /// Density `1 / (4π r²)` [m⁻²]: half of the points are on the far side.
+    #[inline]
+    fn sample_area(&self, u: [f32; 2]) -> SurfacePoint {
+        self.point(warp::uniform_sphere(u))
+    }
+
+    fn sample_area_inverse(&self, point: Vec3) -> [f32; 2] {
+        warp::uniform_sphere_inverse(unit(point - self.centre()).unwrap_or(Vec3::Z))
+    }
+
+    /// By solid angle: uniform in the cone `1 / (2π (1 − cos θ_max))`, and the point where that
+    /// direction first meets the sphere. From inside, and for an inward sphere, by area.
+    #[inline]
+    fn sample_surface(&self, from: &Receiver, method: SurfaceDensity, u: [f32; 2]) -> Option<SurfaceSample> {
+        match (method, Cone::new(self, from.point)) {
+            (SurfaceDensity::SolidAngle, Some(cone)) => {
+                let local = warp::cone(u, cone.one_minus_cos_max());
+                let n = unit(cone.normal_at(local))?;
+                let wi = Frame::from_normal(cone.axis).to_world(local);
+                let at = self.point(n);
+                // Not from the difference of the points, which cancels for a distant sphere.
+                let distance = cone.near_distance(local, self.radius());
+                Some(SurfaceSample { at, wi, distance })
+            }
+            _ => SurfaceSample::toward(from.point, self.sample_area(u)),
+        }
+    }
+
+    #[inline]
+    fn pdf_solid_angle(
+        &self,
+        from: &Receiver,
+        method: SurfaceDensity,
+        at: &SurfacePoint,
+        cos_light: f32,
+    ) -> Option<f32> {
+        match (method, Cone::new(self, from.point)) {
+            (SurfaceDensity::SolidAngle, Some(cone)) => {
+                Some(warp::cone_pdf(cone.one_minus_cos_max())).filter(|p| p.is_finite())
+            }
+            _ => area_to_solid_angle(1.0 / self.area(), at.point.distance_squared(from.point), cos_light),
+        }
+    }
+}
+
+impl Cone {
+    /// Distance to the sphere along the local direction `d`:
+    /// `d cos θ − √(r² − d² sin² θ)`, rearranged to its product form.
+    #[inline]
+    fn near_distance(&self, d: Vec3, radius: f32) -> f32 {
+        let sin2 = d.x * d.x + d.y * d.y;
+        let half_chord = radius * num::sqrt(1.0 - sin2 / self.sin2_max);
+        let (gap, far) = (self.distance - radius, self.distance * d.z + half_chord);
+        // Product of both distances along a ray: the power of the point, (d − r)(d + r).
+        gap * ((self.distance + radius) / far)
+    }
+}

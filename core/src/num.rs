@@ -1,0 +1,119 @@
+//! Scalar functions that give the same bits on every target.
+//!
+//! Everything that is not an exact IEEE operation comes from [`libm`], also where the platform
+//! would offer its own: a picture rendered on x86-64, in WebAssembly and on a Cortex-M is the same.
+
+pub use core::f32::consts::{FRAC_1_PI, FRAC_PI_2, FRAC_PI_4, PI, TAU};
+
+/// Half the distance from 1 to the next larger `f32`: the unit round-off of one operation.
+pub const UNIT_ROUND_OFF: f32 = f32::EPSILON * 0.5;
+
+/// The largest `f32` below 1.
+pub const ONE_MINUS_EPSILON: f32 = 1.0 - UNIT_ROUND_OFF;
+
+/// Bound on the relative error of `n` roundings in a row: `n ε / (1 − n ε)`.
+///
+/// Source: Higham 2002, *Accuracy and Stability of Numerical Algorithms*, lemma 3.1.
+#[must_use]
+pub const fn gamma(n: u32) -> f32 {
+    let n_eps = n as f32 * UNIT_ROUND_OFF;
+    n_eps / (1.0 - n_eps)
+}
+
+/// Square root, correctly rounded; 0 for negative arguments, which here are always round-off.
+#[inline(always)]
+#[must_use]
+pub fn sqrt(x: f32) -> f32 {
+    libm::sqrtf(if x > 0.0 { x } else { 0.0 })
+}
+
+/// Sine and cosine of an angle [rad].
+#[inline]
+#[must_use]
+pub fn sin_cos(x: f32) -> (f32, f32) {
+    libm::sincosf(x)
+}
+
+/// `x` to the power `y`.
+#[inline]
+#[must_use]
+pub fn pow(x: f32, y: f32) -> f32 {
+    libm::powf(x, y)
+}
+
+/// `e^x − 1`, accurate near 0.
+#[inline]
+#[must_use]
+pub fn exp_m1(x: f32) -> f32 {
+    libm::expm1f(x)
+}
+
+/// `e^x`.
+#[inline]
+#[must_use]
+pub fn exp(x: f32) -> f32 {
+    libm::expf(x)
+}
+
+/// Natural logarithm.
+#[inline]
+#[must_use]
+pub fn ln(x: f32) -> f32 {
+    libm::logf(x)
+}
+
+/// `ln(1 + x)`, accurate near 0.
+#[inline]
+#[must_use]
+pub fn ln_1p(x: f32) -> f32 {
+    libm::log1pf(x)
+}
+
+/// Angle of the vector (x, y) [rad], in `[−π, π]`.
+#[inline]
+#[must_use]
+pub fn atan2(y: f32, x: f32) -> f32 {
+    libm::atan2f(y, x)
+}
+
+/// Arc cosine [rad]; the argument is clamped to `[−1, 1]`.
+#[inline]
+#[must_use]
+pub fn acos(x: f32) -> f32 {
+    libm::acosf(x.clamp(-1.0, 1.0))
+}
+
+/// Tangent of an angle [rad].
+#[inline]
+#[must_use]
+pub fn tan(x: f32) -> f32 {
+    libm::tanf(x)
+}
+
+/// A well-mixed 32-bit hash: neighbouring inputs give unrelated outputs.
+///
+/// Source: Wellons 2018, *Prospecting for Hash Functions*, "lowbias32" as improved by
+/// The-Traveller-Robot (bias 0.107).
+#[inline]
+#[must_use]
+pub const fn hash(mut x: u32) -> u32 {
+    x ^= x >> 16;
+    x = x.wrapping_mul(0x21f0_aaad);
+    x ^= x >> 15;
+    x = x.wrapping_mul(0xd35a_2d97);
+    x ^ (x >> 15)
+}
+
+/// Hash of two words, in order.
+#[inline]
+#[must_use]
+pub const fn hash2(a: u32, b: u32) -> u32 {
+    hash(a ^ hash(b).wrapping_add(0x9e37_79b9))
+}
+
+/// A uniform number in `[0, 1)` from the upper 24 bits of `bits`; never 1.
+#[inline]
+#[must_use]
+pub const fn unit_f32(bits: u32) -> f32 {
+    (bits >> 8) as f32 * (1.0 / 16_777_216.0)
+}

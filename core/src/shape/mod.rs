@@ -1,0 +1,109 @@
+//! Shapes that rays meet: one file each, with its geometry, intersection and area.
+//!
+//! How a shape is sampled as a light is in [`crate::light`].
+
+mod cylinder;
+mod disk;
+mod error;
+mod planar;
+mod rectangle;
+mod sphere;
+mod triangle;
+
+pub use cylinder::Cylinder;
+pub use disk::Disk;
+pub use error::ShapeError;
+pub use rectangle::Rectangle;
+pub use sphere::Sphere;
+pub use triangle::Triangle;
+
+use crate::geom::{Aabb, PreparedRay, Ray};
+use glam::Vec3;
+
+/// Where a ray meets a shape, in the shape's own coordinates.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ShapeHit {
+    /// Ray parameter, above 0.
+    pub t: f32,
+    /// First surface coordinate: barycentric `b1` of a triangle, first axis of a flat shape.
+    pub u: f32,
+    /// Second surface coordinate.
+    pub v: f32,
+}
+
+/// A point on a surface with a bound on how far off it may be.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SurfacePoint {
+    /// The point [m].
+    pub point: Vec3,
+    /// Bound on its absolute error, per axis [m].
+    pub error: Vec3,
+    /// Geometric unit normal on the front side.
+    pub normal: Vec3,
+}
+
+/// A surface that rays can meet.
+pub trait Shape: Copy {
+    /// The smallest box around the shape, or one slightly larger; never smaller.
+    fn bounds(&self) -> Aabb;
+
+    /// Surface area of the side that the normal points to [m²].
+    fn area(&self) -> f32;
+
+    /// The nearest intersection with `0 < t < t_max`. A ray that starts on the shape, moved off by
+    /// [`crate::geom::offset_origin`], does not meet it again there.
+    fn intersect(&self, ray: &PreparedRay, t_max: f32) -> Option<ShapeHit>;
+
+    /// The surface point of a hit that [`Shape::intersect`] has found.
+    fn surface_point(&self, ray: &Ray, hit: &ShapeHit) -> SurfacePoint;
+}
+
+/// Any of the shapes: what a frontend that reads arbitrary scenes uses.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum AnyShape {
+    /// A triangle.
+    Triangle(Triangle),
+    /// A rectangle.
+    Rectangle(Rectangle),
+    /// A disk or ellipse.
+    Disk(Disk),
+    /// A sphere.
+    Sphere(Sphere),
+    /// An open cylinder.
+    Cylinder(Cylinder),
+}
+
+/// The only list of variants; every method goes through it.
+macro_rules! each_shape {
+    ($shape:expr, $inner:ident => $body:expr) => {
+        match $shape {
+            AnyShape::Triangle($inner) => $body,
+            AnyShape::Rectangle($inner) => $body,
+            AnyShape::Disk($inner) => $body,
+            AnyShape::Sphere($inner) => $body,
+            AnyShape::Cylinder($inner) => $body,
+        }
+    };
+}
+
+impl Shape for AnyShape {
+    #[inline]
+    fn bounds(&self) -> Aabb {
+        each_shape!(self, s => s.bounds())
+    }
+
+    #[inline]
+    fn area(&self) -> f32 {
+        each_shape!(self, s => s.area())
+    }
+
+    #[inline]
+    fn intersect(&self, ray: &PreparedRay, t_max: f32) -> Option<ShapeHit> {
+        each_shape!(self, s => s.intersect(ray, t_max))
+    }
+
+    #[inline]
+    fn surface_point(&self, ray: &Ray, hit: &ShapeHit) -> SurfacePoint {
+        each_shape!(self, s => s.surface_point(ray, hit))
+    }
+}

@@ -1,0 +1,91 @@
+//! Rectangles.
+
+use super::planar::Planar;
+use super::{Shape, ShapeError, ShapeHit, SurfacePoint};
+use crate::geom::{Aabb, PreparedRay, Ray};
+use glam::Vec3;
+
+/// How far outside its edges a rectangle is still met, in units of the half-edge: a few roundings,
+/// so that two rectangles that share an edge leave no gap.
+const EDGE_SLACK: f32 = 1.0 + 4.0 * f32::EPSILON;
+
+/// A rectangle: a centre and two half-edges at right angles. Its normal is `half_u × half_v`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rectangle(Planar);
+
+impl Rectangle {
+    /// A rectangle with corners `centre ± half_u ± half_v` [m].
+    ///
+    /// # Errors
+    /// When a coordinate is not finite, the area is 0 or beyond `f32`, or the edges are not at right
+    /// angles.
+    pub fn new(centre: Vec3, half_u: Vec3, half_v: Vec3) -> Result<Self, ShapeError> {
+        Planar::new(centre, half_u, half_v).map(Self)
+    }
+
+    /// Centre [m].
+    #[must_use]
+    pub fn centre(&self) -> Vec3 {
+        self.0.centre
+    }
+
+    /// First half-edge [m].
+    #[must_use]
+    pub fn half_u(&self) -> Vec3 {
+        self.0.axis_u
+    }
+
+    /// Second half-edge [m].
+    #[must_use]
+    pub fn half_v(&self) -> Vec3 {
+        self.0.axis_v
+    }
+
+    /// Unit normal.
+    #[inline]
+    #[must_use]
+    pub fn normal(&self) -> Vec3 {
+        self.0.normal()
+    }
+
+    /// The same rectangle facing the other way.
+    #[must_use]
+    pub fn flipped(self) -> Self {
+        Self(self.0.flipped())
+    }
+
+    /// The point at (u, v) in units of the half-edges, each in `[−1, 1]`.
+    #[inline]
+    #[must_use]
+    pub fn point(&self, u: f32, v: f32) -> SurfacePoint {
+        self.0.surface_point(u, v)
+    }
+
+    /// Coordinates of a point in units of the half-edges: the inverse of [`Rectangle::point`].
+    #[inline]
+    #[must_use]
+    pub fn coordinates(&self, point: Vec3) -> (f32, f32) {
+        self.0.coordinates(point)
+    }
+}
+
+impl Shape for Rectangle {
+    fn bounds(&self) -> Aabb {
+        self.0.bounds_with(self.0.axis_u.abs() + self.0.axis_v.abs())
+    }
+
+    fn area(&self) -> f32 {
+        4.0 * self.0.half_axes_area()
+    }
+
+    #[inline]
+    fn intersect(&self, ray: &PreparedRay, t_max: f32) -> Option<ShapeHit> {
+        let hit = self.0.intersect(ray, t_max)?;
+        (hit.u.abs() <= EDGE_SLACK && hit.v.abs() <= EDGE_SLACK).then_some(hit)
+    }
+
+    #[inline]
+    fn surface_point(&self, _ray: &Ray, hit: &ShapeHit) -> SurfacePoint {
+        self.0.surface_point(hit.u, hit.v)
+    }
+}
