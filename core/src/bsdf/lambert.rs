@@ -54,4 +54,8 @@ impl Bsdf for Lambert {
     fn albedo(&self) -> Rgb {
         self.reflectance
     }
+
+    fn is_diffuse(&self) -> bool {
+        true
+    }
 }

@@ -46,6 +46,12 @@ pub trait Bsdf: Copy {
     /// Fraction of the light that is reflected, roughly: for images of albedo, not for transport.
     fn albedo(&self) -> Rgb;
 
+    /// True when the same is reflected in all directions, so that drawing directions from the BSDF
+    /// brings nothing that drawing them toward the lights does not.
+    fn is_diffuse(&self) -> bool {
+        false
+    }
+
     /// True when nothing is reflected in any direction, so that no light need be sampled.
     fn is_black(&self) -> bool {
         self.albedo().is_black()
@@ -92,5 +98,10 @@ impl Bsdf for AnyBsdf {
 
     fn albedo(&self) -> Rgb {
         each_bsdf!(self, b => b.albedo())
+    }
+
+    #[inline]
+    fn is_diffuse(&self) -> bool {
+        each_bsdf!(self, b => b.is_diffuse())
     }
 }

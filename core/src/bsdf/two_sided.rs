@@ -61,6 +61,10 @@ impl<B: Bsdf> Bsdf for TwoSided<B> {
         self.front.albedo()
     }
 
+    fn is_diffuse(&self) -> bool {
+        self.front.is_diffuse() && self.back.as_ref().is_none_or(Bsdf::is_diffuse)
+    }
+
     fn is_black(&self) -> bool {
         self.front.is_black() && self.back.as_ref().is_none_or(Bsdf::is_black)
     }

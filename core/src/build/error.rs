@@ -1,0 +1,69 @@
+//! Why a scene could not be built.
+
+use crate::bvh::BvhError;
+use crate::light::LightError;
+use crate::scene::SceneError;
+use core::fmt;
+use std::string::String;
+
+/// Why a description could not be turned into a scene.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum BuildError {
+    /// An object's emission was refused.
+    Light {
+        /// The object's name.
+        object: String,
+        /// Why.
+        source: LightError,
+    },
+    /// An object names a material that does not exist.
+    NoMaterial {
+        /// The object's name.
+        object: String,
+        /// The index that it names.
+        material: usize,
+    },
+    /// A mesh names a corner that does not exist, or has another number of normals than of corners.
+    Mesh {
+        /// The object's name.
+        object: String,
+        /// The first triangle at fault.
+        triangle: usize,
+    },
+    /// The tree was refused.
+    Bvh(BvhError),
+    /// The tables do not fit one another.
+    Scene(SceneError),
+}
+
+impl fmt::Display for BuildError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Light { object, source } => write!(f, "{object}: {source}"),
+            Self::NoMaterial { object, material } => {
+                write!(f, "{object} names material {material}, which the scene does not have")
+            }
+            Self::Mesh { object, triangle } => write!(
+                f,
+                "{object}: triangle {triangle} names a corner that the mesh does not have, or one without a normal"
+            ),
+            Self::Bvh(e) => write!(f, "the tree over the scene was refused: {e}"),
+            Self::Scene(e) => write!(f, "the scene was refused: {e}"),
+        }
+    }
+}
+
+impl core::error::Error for BuildError {}
+
+impl From<BvhError> for BuildError {
+    fn from(e: BvhError) -> Self {
+        Self::Bvh(e)
+    }
+}
+
+impl From<SceneError> for BuildError {
+    fn from(e: SceneError) -> Self {
+        Self::Scene(e)
+    }
+}

@@ -1,0 +1,96 @@
+//! How large the error is, judged from the samples alone.
+//!
+//! The samples of a pixel come in passes that double their number. When `n` samples give the mean
+//! `A` and `n` more give `B`, the final mean is `M = (A + B)/2`, and `(M − A)² = (A − B)²/4`. For
+//! independent samples its expectation is the variance of `M`. Sobol points are not independent:
+//! the second half fills the gaps of the first, so the halves deviate in opposite directions and the
+//! difference exaggerates. If doubling divides the variance by ρ, then
+//! `E (A − B)²/4 = (ρ − 1) Var M` (insert `Var A = Var B = ρ Var M` into
+//! `Var M = (Var A + Var B + 2 Cov)/4`); ρ = 2 for independent samples. The same holds one pass
+//! earlier, so ρ itself is the ratio of the differences of the last two passes. (Derived here.)
+
+/// Smallest and largest divisor of the variance per doubling: independent points, and the best that
+/// scrambled nets reach on smooth integrands (`n⁻³`).
+const RATE: (f64, f64) = (2.0, 8.0);
+
+/// Weighted squared differences between the means before and after a pass, over some pixels.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct DifferenceSums {
+    sum: f64,
+    values: u64,
+}
+
+impl DifferenceSums {
+    /// Takes a value in that went from `before` (of `n0` samples) to `after` (of `n1`).
+    ///
+    /// The square is divided by `after² + 0.01`, as relMSE does, and brought to what doubling
+    /// would have shown.
+    #[inline]
+    pub(super) fn add(&mut self, before: f32, after: f32, n0: u32, n1: u32) {
+        let difference = f64::from(after - before);
+        let doubling = f64::from(n0) / f64::from(n1 - n0);
+        self.sum += difference * difference * doubling / (f64::from(after) * f64::from(after) + 0.01);
+        self.values += 1;
+    }
+
+    /// Takes in what other pixels have seen.
+    pub fn merge(&mut self, other: Self) {
+        self.sum += other.sum;
+        self.values += other.values;
+    }
+
+    /// Mean over the values; `None` without any.
+    fn mean(&self) -> Option<f64> {
+        (self.values > 0).then(|| self.sum / self.values as f64)
+    }
+}
+
+/// The record of a picture's passes, and the error that follows from it.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Convergence {
+    /// Mean squared difference of the last pass that doubled the samples, and of the one before.
+    last: Option<f64>,
+    previous: Option<f64>,
+    /// Samples after the last doubling, and now.
+    doubled_at: u32,
+    samples: u32,
+}
+
+impl Convergence {
+    /// Nothing rendered yet.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Records a pass over the whole picture that brought its pixels to `samples` each.
+    pub fn record(&mut self, samples: u32, sums: &DifferenceSums) {
+        let doubled = self.samples > 0 && samples >= 2 * self.samples;
+        self.samples = samples;
+        if let (true, Some(mean)) = (doubled, sums.mean()) {
+            self.previous = self.last;
+            self.last = Some(mean);
+            self.doubled_at = samples;
+        }
+    }
+
+    /// Estimated relMSE of the picture: `mean((I − R)² / (R² + 0.01))` over pixels and channels.
+    /// `None` before the second sample.
+    #[must_use]
+    pub fn relative_mse(&self) -> Option<f64> {
+        let last = self.last?;
+        let rate = match self.previous {
+            Some(previous) if last > 0.0 => (previous / last).clamp(RATE.0, RATE.1),
+            _ => RATE.0,
+        };
+        // Samples since the last doubling count as independent ones.
+        let since = f64::from(self.doubled_at) / f64::from(self.samples);
+        Some(last / (rate - 1.0) * since)
+    }
+
+    /// Estimated relative error `√relMSE`, as a fraction.
+    #[must_use]
+    pub fn relative_error(&self) -> Option<f64> {
+        self.relative_mse().map(libm::sqrt)
+    }
+}

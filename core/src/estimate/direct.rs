@@ -1,0 +1,244 @@
+//! Direct light: `L_o = L_e + ∫ f_r L_i V cos θ dω`.
+//!
+//! Two forms of the same integral are sampled. Over the lights' surfaces, a sample contributes
+//! `f_r L_e V G / p_A` with `G = cos θ_i cos θ' / d²`; carried to solid angle by
+//! `p_ω = p_A d² / cos θ'` that is `f_r L_e V cos θ_i / p_ω`, which also covers densities over
+//! direction. Over the hemisphere, directions come from the BSDF and meet a light or do not.
+
+use super::shading::Shading;
+use super::{Estimator, Heuristic};
+use crate::Rgb;
+use crate::bsdf::Bsdf;
+use crate::choose::LightChoice;
+use crate::geom::{Ray, offset_origin};
+use crate::light::{Density, Emitter, SurfaceDensity};
+use crate::scene::Scene;
+use crate::sequence::{Dimension, Sequence};
+use crate::shape::Shape;
+use glam::Vec3;
+
+/// Which densities are combined.
+///
+/// A delta light is met by no ray, so it is sampled by light in each of them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Technique {
+    /// Directions toward the lights.
+    Light,
+    /// Directions from the BSDF.
+    Bsdf,
+    /// Both, weighted.
+    Mis(Heuristic),
+    /// What each shading point requires: by light where the BSDF is diffuse, both elsewhere.
+    Auto(Heuristic),
+}
+
+/// The direct-lighting estimator.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Direct<'a> {
+    /// Which densities are combined.
+    pub technique: Technique,
+    /// Light samples per camera sample, and per light when all lights are sampled.
+    pub light_samples: u32,
+    /// BSDF samples per camera sample.
+    pub bsdf_samples: u32,
+    /// How a light's surface is sampled.
+    pub surface: SurfaceDensity,
+    /// Which lights are sampled.
+    pub choice: LightChoice<'a>,
+}
+
+/// What a technique comes down to at one shading point.
+#[derive(Clone, Copy)]
+struct Plan {
+    light: u32,
+    bsdf: u32,
+    heuristic: Heuristic,
+}
+
+impl Default for Direct<'_> {
+    fn default() -> Self {
+        Self {
+            technique: Technique::Auto(Heuristic::Power),
+            light_samples: 1,
+            bsdf_samples: 1,
+            surface: SurfaceDensity::SolidAngle,
+            choice: LightChoice::All,
+        }
+    }
+}
+
+impl Direct<'_> {
+    /// Light that the surface point reflects toward the viewer [W m⁻² sr⁻¹]: one sample.
+    #[inline]
+    fn reflected<S: Shape, L: Emitter, B: Bsdf>(
+        &self,
+        scene: &Scene<'_, S, L, B>,
+        shading: &Shading<'_, B>,
+        sequence: &mut impl Sequence,
+    ) -> Rgb {
+        let plan = self.plan(scene, shading.bsdf());
+        let mut sum = Rgb::BLACK;
+        if plan.light > 0 || scene.has_delta_light() {
+            sum += self.over_lights(scene, shading, plan, sequence);
+        }
+        if plan.bsdf > 0 {
+            sum += self.over_hemisphere(scene, shading, plan, sequence);
+        }
+        sum
+    }
+
+    /// How many samples of each kind this point gets.
+    #[inline]
+    fn plan<S: Shape, L: Emitter, B: Bsdf>(&self, scene: &Scene<'_, S, L, B>, bsdf: &B) -> Plan {
+        let (light, bsdf_samples, heuristic) = match self.technique {
+            Technique::Light => (self.light_samples, 0, Heuristic::Power),
+            Technique::Bsdf => (0, self.bsdf_samples, Heuristic::Power),
+            Technique::Mis(h) => (self.light_samples, self.bsdf_samples, h),
+            Technique::Auto(h) if bsdf.is_diffuse() => (self.light_samples.max(1), 0, h),
+            Technique::Auto(h) => (self.light_samples, self.bsdf_samples, h),
+        };
+        // Where no ray can meet a light, none is sent.
+        let bsdf = if scene.has_light_to_meet() { bsdf_samples } else { 0 };
+        Plan { light, bsdf, heuristic }
+    }
+
+    /// The light-sampling part: over every light, or over a chosen one for each sample.
+    #[inline]
+    fn over_lights<S: Shape, L: Emitter, B: Bsdf>(
+        &self,
+        scene: &Scene<'_, S, L, B>,
+        shading: &Shading<'_, B>,
+        plan: Plan,
+        sequence: &mut impl Sequence,
+    ) -> Rgb {
+        let lights = scene.lights().len();
+        let draws = plan.light.max(1);
+        let mut sum = Rgb::BLACK;
+        if self.choice == LightChoice::All {
+            for light in 0..lights {
+                for draw in 0..draws {
+                    let u = sequence.next(Dimension::Light(light as u32), draw, draws);
+                    sum += self.toward(scene, shading, plan, light, 1.0, [u[0], u[1]]);
+                }
+            }
+        } else {
+            for draw in 0..draws {
+                let u = sequence.next(Dimension::Light(0), draw, draws);
+                if let Some(light) = self.choice.choose(lights, u[2]) {
+                    let pmf = self.choice.pmf(lights, light);
+                    sum += self.toward(scene, shading, plan, light, pmf, [u[0], u[1]]);
+                }
+            }
+        }
+        sum / draws as f32
+    }
+
+    /// One sample of one light, chosen with probability `pmf`.
+    #[inline]
+    fn toward<S: Shape, L: Emitter, B: Bsdf>(
+        &self,
+        scene: &Scene<'_, S, L, B>,
+        shading: &Shading<'_, B>,
+        plan: Plan,
+        light: usize,
+        pmf: f32,
+        u: [f32; 2],
+    ) -> Rgb {
+        let light = &scene.lights()[light];
+        if plan.light == 0 && !light.is_delta() {
+            return Rgb::BLACK;
+        }
+        let Some(sample) = light.sample(&shading.receiver, self.surface, u) else { return Rgb::BLACK };
+        if sample.incident.is_black() {
+            return Rgb::BLACK;
+        }
+        let Some(reflected) = shading.reflect(sample.wi) else { return Rgb::BLACK };
+        let weight = match sample.density {
+            Density::Delta => 1.0 / pmf,
+            Density::SolidAngle(pdf) if plan.bsdf == 0 => 1.0 / (pdf * pmf),
+            Density::SolidAngle(pdf) => {
+                let this = plan.light as f32 * pdf * pmf;
+                let other = plan.bsdf as f32 * shading.pdf_solid_angle(&reflected);
+                plan.heuristic.weight(this, other) / (pdf * pmf)
+            }
+        };
+        if !scene.visible(&shading.at.at, sample.wi, sample.distance) {
+            return Rgb::BLACK;
+        }
+        reflected.f_cos * sample.incident * weight
+    }
+
+    /// The BSDF-sampling part: directions over the hemisphere, and the light that they meet.
+    #[inline]
+    fn over_hemisphere<S: Shape, L: Emitter, B: Bsdf>(
+        &self,
+        scene: &Scene<'_, S, L, B>,
+        shading: &Shading<'_, B>,
+        plan: Plan,
+        sequence: &mut impl Sequence,
+    ) -> Rgb {
+        let mut sum = Rgb::BLACK;
+        for draw in 0..plan.bsdf {
+            let u = sequence.next(Dimension::Bsdf, draw, plan.bsdf);
+            let Some((wi, pdf)) = shading.sample(u) else { continue };
+            let Some(reflected) = shading.reflect(wi) else { continue };
+            let Some((incident, pdf_light)) = self.met(scene, shading, wi) else { continue };
+            let weight = if plan.light == 0 {
+                1.0
+            } else {
+                plan.heuristic.weight(plan.bsdf as f32 * pdf, plan.light as f32 * pdf_light)
+            };
+            sum += reflected.f_cos * incident * (weight / pdf);
+        }
+        sum / plan.bsdf as f32
+    }
+
+    /// The radiance that arrives along `wi`, and the density with which light sampling draws `wi`.
+    #[inline]
+    fn met<S: Shape, L: Emitter, B: Bsdf>(
+        &self,
+        scene: &Scene<'_, S, L, B>,
+        shading: &Shading<'_, B>,
+        wi: Vec3,
+    ) -> Option<(Rgb, f32)> {
+        let at = &shading.at.at;
+        let ray = Ray::new(offset_origin(at.point, at.error, at.normal, wi), wi);
+        let lights = scene.lights().len();
+        match scene.closest_hit(&ray, f32::INFINITY) {
+            Some(hit) => {
+                let light = scene.lights().get(hit.light as usize)?;
+                let incident = light.radiance(hit.at.normal, -wi);
+                let pdf = light.pdf_solid_angle(&shading.receiver, self.surface, wi, &hit.at);
+                let pmf = self.choice.pmf(lights, hit.light as usize);
+                (!incident.is_black()).then_some((incident, pdf * pmf))
+            }
+            None => {
+                let (index, light) = scene.environment()?;
+                let pdf = light.pdf_escaping(&shading.receiver, wi);
+                Some((light.radiance_escaping(wi), pdf * self.choice.pmf(lights, index)))
+            }
+        }
+    }
+}
+
+impl Estimator for Direct<'_> {
+    #[inline]
+    fn sample<S: Shape, L: Emitter, B: Bsdf>(
+        &self,
+        scene: &Scene<'_, S, L, B>,
+        ray: &Ray,
+        reach: f32,
+        sequence: &mut impl Sequence,
+    ) -> Rgb {
+        let Some(hit) = scene.closest_hit(ray, reach) else {
+            return scene.environment().map_or(Rgb::BLACK, |(_, l)| l.radiance_escaping(ray.direction));
+        };
+        let wo = -ray.direction;
+        let emitted = scene.emitted(&hit, wo);
+        let Some(bsdf) = scene.bsdfs().get(hit.bsdf as usize) else { return emitted };
+        if bsdf.is_black() {
+            return emitted;
+        }
+        emitted + self.reflected(scene, &Shading::new(&hit, bsdf, wo), sequence)
+    }
+}

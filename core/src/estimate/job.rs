@@ -1,0 +1,95 @@
+//! Rendering a part of a picture.
+
+use super::{DifferenceSums, Estimator, PixelStats};
+use crate::bsdf::Bsdf;
+use crate::camera::Camera;
+use crate::film::{Film, PixelRect};
+use crate::light::Emitter;
+use crate::scene::Scene;
+use crate::sequence::{Dimension, Sequence};
+use crate::shape::Shape;
+use core::ops::Range;
+
+/// Everything that a picture depends on, borrowed. What a pixel becomes depends on nothing else: not
+/// on the tiles, their order, or the threads that render them.
+#[derive(Debug)]
+pub struct Job<'a, S, L, B, E, Q> {
+    /// The scene.
+    pub scene: Scene<'a, S, L, B>,
+    /// What looks at it.
+    pub camera: Camera,
+    /// The raster.
+    pub film: Film,
+    /// What is estimated.
+    pub estimator: E,
+    /// Where the uniforms come from; cloned for each tile.
+    pub sequence: Q,
+}
+
+impl<S: Shape, L: Emitter, B: Bsdf, E: Estimator, Q: Sequence + Clone> Job<'_, S, L, B, E, Q> {
+    /// Adds the given samples to each pixel of a tile.
+    ///
+    /// * `tile` – the part of the film
+    /// * `samples` – which samples; each pixel must hold exactly those before them
+    /// * `pixels` – of the tile, row by row from its top; as many as the tile has
+    ///
+    /// Returns what [`super::Convergence::record`] wants to know.
+    pub fn render(&self, tile: PixelRect, samples: Range<u32>, pixels: &mut [PixelStats]) -> DifferenceSums {
+        let mut sums = DifferenceSums::default();
+        let mut sequence = self.sequence.clone();
+        let places = (tile.y0..tile.y1).flat_map(|y| (tile.x0..tile.x1).map(move |x| (x, y)));
+        for ((x, y), pixel) in places.zip(pixels) {
+            let before = *pixel;
+            for sample in samples.clone() {
+                pixel.add(self.sample(x, y, sample, &mut sequence));
+            }
+            if before.count() > 0 && pixel.count() > before.count() {
+                let (old, new) = (before.mean().to_array(), pixel.mean().to_array());
+                for (old, new) in old.into_iter().zip(new) {
+                    sums.add(old, new, before.count(), pixel.count());
+                }
+            }
+        }
+        sums
+    }
+
+    /// One sample of pixel (x, y).
+    #[inline]
+    fn sample(&self, x: u32, y: u32, sample: u32, sequence: &mut Q) -> crate::Rgb {
+        // The pixel's number does not depend on the crop window.
+        sequence.start(y.wrapping_mul(self.film.width()).wrapping_add(x), sample);
+        let [u, v, _] = sequence.next(Dimension::Film, 0, 1);
+        let (px, py) = self.film.place(x, y, [u, v]);
+        let (ray, reach) = self.camera.ray(px, py);
+        self.estimator.sample(&self.scene, &ray, reach, sequence)
+    }
+}
+
+/// The passes that make up `samples` per pixel: 1, then as many again each time, the last cut short.
+/// After any of them a picture can be shown, and its error estimated.
+pub fn passes(samples: u32) -> impl Iterator<Item = Range<u32>> {
+    let mut start = 0;
+    core::iter::from_fn(move || {
+        if start >= samples {
+            return None;
+        }
+        let end = if start == 0 { 1 } else { start.saturating_mul(2).min(samples) };
+        let pass = start..end;
+        start = end;
+        Some(pass)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn passes_double_and_end_where_they_should() {
+        assert!(passes(0).eq([]));
+        assert!(passes(1).eq(core::iter::once(0..1)));
+        assert!(passes(8).eq([0..1, 1..2, 2..4, 4..8]));
+        assert!(passes(11).eq([0..1, 1..2, 2..4, 4..8, 8..11]));
+        assert_eq!(passes(u32::MAX).last().map(|p| p.end), Some(u32::MAX));
+    }
+}

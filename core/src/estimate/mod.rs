@@ -1,0 +1,63 @@
+//! Estimators: what a camera ray brings back, and how well that is known.
+
+mod convergence;
+mod direct;
+mod heuristic;
+mod job;
+mod occlusion;
+mod shading;
+mod stats;
+
+pub use convergence::{Convergence, DifferenceSums};
+pub use direct::{Direct, Technique};
+pub use heuristic::Heuristic;
+pub use job::{Job, passes};
+pub use occlusion::Occlusion;
+pub use stats::PixelStats;
+
+use crate::Rgb;
+use crate::bsdf::Bsdf;
+use crate::geom::Ray;
+use crate::light::Emitter;
+use crate::scene::Scene;
+use crate::sequence::Sequence;
+use crate::shape::Shape;
+
+/// Something that can be estimated along a camera ray.
+pub trait Estimator {
+    /// One sample of what arrives along `ray` from within `reach` [m].
+    ///
+    /// `sequence` has been turned to the sample; the camera has used its [`crate::sequence::Dimension::Film`].
+    fn sample<S: Shape, L: Emitter, B: Bsdf>(
+        &self,
+        scene: &Scene<'_, S, L, B>,
+        ray: &Ray,
+        reach: f32,
+        sequence: &mut impl Sequence,
+    ) -> Rgb;
+}
+
+/// Any of the estimators, chosen at run time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum AnyEstimator<'a> {
+    /// Direct light.
+    Direct(Direct<'a>),
+    /// Ambient occlusion.
+    Occlusion(Occlusion),
+}
+
+impl Estimator for AnyEstimator<'_> {
+    #[inline]
+    fn sample<S: Shape, L: Emitter, B: Bsdf>(
+        &self,
+        scene: &Scene<'_, S, L, B>,
+        ray: &Ray,
+        reach: f32,
+        sequence: &mut impl Sequence,
+    ) -> Rgb {
+        match self {
+            Self::Direct(e) => e.sample(scene, ray, reach, sequence),
+            Self::Occlusion(e) => e.sample(scene, ray, reach, sequence),
+        }
+    }
+}

@@ -1,0 +1,73 @@
+//! A surface point made ready for reflecting light.
+
+use crate::Rgb;
+use crate::bsdf::{Bsdf, BsdfSample};
+use crate::geom::Frame;
+use crate::light::Receiver;
+use crate::scene::Interaction;
+use glam::Vec3;
+
+/// A point, the direction it is seen from, and its BSDF.
+pub(super) struct Shading<'s, B> {
+    pub(super) at: &'s Interaction,
+    pub(super) receiver: Receiver,
+    bsdf: &'s B,
+    frame: Frame,
+    wo: Vec3,
+    /// Geometric normal on the side that is looked at.
+    side: Vec3,
+}
+
+impl<'s, B: Bsdf> Shading<'s, B> {
+    /// * `wo` – unit direction to the viewer, world space
+    #[inline]
+    pub(super) fn new(at: &'s Interaction, bsdf: &'s B, wo: Vec3) -> Self {
+        let front = at.at.normal.dot(wo) >= 0.0;
+        let side = if front { at.at.normal } else { -at.at.normal };
+        // An interpolated normal that turns away from the viewer has nothing to say there.
+        let agrees = (at.shading_normal.dot(wo) >= 0.0) == front;
+        let normal = if agrees { at.shading_normal } else { at.at.normal };
+        let frame = Frame::from_normal(normal);
+        let receiver = Receiver { point: at.at.point, normal: if front { normal } else { -normal } };
+        Self { at, receiver, bsdf, frame, wo: frame.to_local(wo), side }
+    }
+
+    #[inline]
+    pub(super) fn bsdf(&self) -> &B {
+        self.bsdf
+    }
+
+    /// `f_r cos θ` toward the world direction `wi` and the density with which the BSDF draws it;
+    /// `None` where nothing is reflected.
+    #[inline]
+    pub(super) fn reflect(&self, wi: Vec3) -> Option<Reflected> {
+        // Light must come from the viewer's side of the surface as well as of the shading normal.
+        let cos_theta = self.receiver.normal.dot(wi);
+        if cos_theta <= 0.0 || self.side.dot(wi) <= 0.0 {
+            return None;
+        }
+        let local = self.frame.to_local(wi);
+        let f = self.bsdf.eval(self.wo, local);
+        (!f.is_black()).then(|| Reflected { f_cos: f * cos_theta, local })
+    }
+
+    /// Density of a direction that [`Shading::reflect`] has accepted [sr⁻¹].
+    #[inline]
+    pub(super) fn pdf_solid_angle(&self, reflected: &Reflected) -> f32 {
+        self.bsdf.pdf_solid_angle(self.wo, reflected.local)
+    }
+
+    /// Draws a world direction from the BSDF.
+    #[inline]
+    pub(super) fn sample(&self, [u, v, lobe]: [f32; 3]) -> Option<(Vec3, f32)> {
+        let BsdfSample { wi, pdf_solid_angle } = self.bsdf.sample(self.wo, [u, v], lobe)?;
+        Some((self.frame.to_world(wi), pdf_solid_angle))
+    }
+}
+
+/// What a surface makes of light from one direction.
+pub(super) struct Reflected {
+    /// BSDF times cosine [sr⁻¹].
+    pub(super) f_cos: Rgb,
+    local: Vec3,
+}

@@ -1,0 +1,96 @@
+//! What is known of a pixel so far.
+
+use crate::Rgb;
+
+/// Running mean and variance of a pixel's samples.
+///
+/// Source: Welford 1962, *Note on a Method for Calculating Corrected Sums of Squares and Products*,
+/// Technometrics 4(3): never negative, and exact for constant samples.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[repr(C)]
+pub struct PixelStats {
+    mean: Rgb,
+    squares: Rgb,
+    count: u32,
+    rejected: u32,
+}
+
+impl PixelStats {
+    /// Nothing known yet.
+    pub const NEW: Self = Self { mean: Rgb::BLACK, squares: Rgb::BLACK, count: 0, rejected: 0 };
+
+    /// Takes a sample in. One that is not a finite, non-negative number is counted as rejected and
+    /// does not reach the mean.
+    #[inline]
+    pub fn add(&mut self, sample: Rgb) {
+        if !sample.is_valid() {
+            self.rejected = self.rejected.saturating_add(1);
+            return;
+        }
+        self.count += 1;
+        let delta = sample - self.mean;
+        self.mean += delta * (1.0 / self.count as f32);
+        self.squares += delta * (sample - self.mean);
+    }
+
+    /// Mean of the samples; black before the first.
+    #[inline]
+    #[must_use]
+    pub const fn mean(&self) -> Rgb {
+        self.mean
+    }
+
+    /// Sample variance per channel; 0 before the second sample.
+    #[must_use]
+    pub fn variance(&self) -> Rgb {
+        if self.count < 2 { Rgb::BLACK } else { self.squares / (self.count - 1) as f32 }
+    }
+
+    /// Samples in the mean.
+    #[inline]
+    #[must_use]
+    pub const fn count(&self) -> u32 {
+        self.count
+    }
+
+    /// Samples that were not numbers to use.
+    #[must_use]
+    pub const fn rejected(&self) -> u32 {
+        self.rejected
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn mean_of_ones_is_one_after_many_samples() {
+        let mut p = PixelStats::NEW;
+        for _ in 0..1 << 20 {
+            p.add(Rgb::WHITE);
+        }
+        assert_eq!(p.mean(), Rgb::WHITE);
+        assert_eq!(p.variance(), Rgb::BLACK);
+    }
+
+    #[test]
+    fn variance_of_a_die_is_that_of_a_die() {
+        let mut p = PixelStats::NEW;
+        for i in 0..60_000u32 {
+            p.add(Rgb::splat(1.0 + (i % 6) as f32));
+        }
+        assert!((p.mean().r - 3.5).abs() < 1e-4);
+        assert!((p.variance().g - 35.0 / 12.0).abs() < 1e-3);
+    }
+
+    #[test]
+    fn what_is_not_a_number_is_counted_and_left_out() {
+        let mut p = PixelStats::NEW;
+        p.add(Rgb::splat(2.0));
+        for bad in [f32::NAN, f32::INFINITY, -1.0] {
+            p.add(Rgb::new(1.0, bad, 1.0));
+        }
+        assert_eq!((p.mean(), p.count(), p.rejected()), (Rgb::splat(2.0), 1, 3));
+    }
+}

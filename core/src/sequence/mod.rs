@@ -1,0 +1,81 @@
+//! Where the uniforms come from.
+//!
+//! A sample of a pixel asks for uniforms by *dimension* (what they decide) and *index* (which of
+//! the draws for that decision this is). Each pixel and each dimension gets its own scramble, so that
+//! nothing is correlated between them; within a dimension the points of all samples of a pixel form
+//! one sequence, so that any power of two of them is well spread.
+
+mod random;
+mod sobol;
+
+pub use random::Random;
+pub use sobol::Sobol;
+
+/// What a draw decides. Each decision has its own, independently scrambled points.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Dimension {
+    /// The place within the pixel's filter.
+    Film,
+    /// A point of a light, and which light when one is chosen. With a shadow ray to every light,
+    /// each light has its own.
+    Light(u32),
+    /// A direction from the BSDF, and which lobe.
+    Bsdf,
+    /// A direction for ambient occlusion.
+    Occlusion,
+}
+
+impl Dimension {
+    /// A number for each decision, for seeding.
+    #[inline]
+    #[must_use]
+    pub const fn key(self) -> u32 {
+        match self {
+            Self::Film => 0,
+            Self::Bsdf => 1,
+            Self::Occlusion => 2,
+            Self::Light(light) => 3_u32.wrapping_add(light),
+        }
+    }
+}
+
+/// A source of uniforms for the samples of a picture.
+///
+/// What it returns depends on the seed, the pixel, the sample, the dimension and the index only, and
+/// not on which thread asks or in what order pixels come.
+pub trait Sequence {
+    /// Turns to sample `sample` of pixel number `pixel`.
+    fn start(&mut self, pixel: u32, sample: u32);
+
+    /// Three uniforms in `[0, 1)`: two for a point, one for a choice.
+    ///
+    /// * `draw` – which of the `draws` that every sample makes in this dimension
+    fn next(&mut self, dimension: Dimension, draw: u32, draws: u32) -> [f32; 3];
+}
+
+/// Either sequence, chosen at run time.
+#[derive(Debug, Clone)]
+pub enum AnySequence {
+    /// Independent points.
+    Random(Random),
+    /// Owen-scrambled Sobol points.
+    Sobol(Sobol),
+}
+
+impl Sequence for AnySequence {
+    #[inline]
+    fn start(&mut self, pixel: u32, sample: u32) {
+        match self {
+            Self::Random(s) => s.start(pixel, sample),
+            Self::Sobol(s) => s.start(pixel, sample),
+        }
+    }
+
+    #[inline]
+    fn next(&mut self, dimension: Dimension, draw: u32, draws: u32) -> [f32; 3] {
+        match self {
+            Self::Random(s) => s.next(dimension, draw, draws),
+            Self::Sobol(s) => s.next(dimension, draw, draws),
+        }
+    }
+}
