@@ -117,16 +117,17 @@ impl Direct<'_> {
         if self.choice == LightChoice::All {
             for light in 0..lights {
                 for draw in 0..draws {
-                    let u = sequence.next(Dimension::Light(light as u32), draw, draws);
-                    sum += self.toward(scene, shading, plan, light, 1.0, [u[0], u[1]]);
+                    let u = sequence.point(Dimension::Light(light as u32), draw, draws);
+                    sum += self.toward(scene, shading, plan, light, 1.0, u);
                 }
             }
         } else {
             for draw in 0..draws {
-                let u = sequence.next(Dimension::Light(0), draw, draws);
-                if let Some(light) = self.choice.choose(lights, u[2]) {
+                let choice = sequence.choice(Dimension::Light(0), draw, draws);
+                if let Some(light) = self.choice.choose(lights, choice) {
                     let pmf = self.choice.pmf(lights, light);
-                    sum += self.toward(scene, shading, plan, light, pmf, [u[0], u[1]]);
+                    let u = sequence.point(Dimension::Light(0), draw, draws);
+                    sum += self.toward(scene, shading, plan, light, pmf, u);
                 }
             }
         }
@@ -179,8 +180,9 @@ impl Direct<'_> {
     ) -> Rgb {
         let mut sum = Rgb::BLACK;
         for draw in 0..plan.bsdf {
-            let u = sequence.next(Dimension::Bsdf, draw, plan.bsdf);
-            let Some((wi, pdf)) = shading.sample(u) else { continue };
+            let u = sequence.point(Dimension::Bsdf, draw, plan.bsdf);
+            let lobe = sequence.choice(Dimension::Bsdf, draw, plan.bsdf);
+            let Some((wi, pdf)) = shading.sample(u, lobe) else { continue };
             let Some(reflected) = shading.reflect(wi) else { continue };
             let Some((incident, pdf_light)) = self.met(scene, shading, wi) else { continue };
             let weight = if plan.light == 0 {

@@ -58,8 +58,7 @@ impl<S: Shape, L: Emitter, B: Bsdf, E: Estimator, Q: Sequence + Clone> Job<'_, S
     fn sample(&self, x: u32, y: u32, sample: u32, sequence: &mut Q) -> crate::Rgb {
         // The pixel's number does not depend on the crop window.
         sequence.start(y.wrapping_mul(self.film.width()).wrapping_add(x), sample);
-        let [u, v, _] = sequence.next(Dimension::Film, 0, 1);
-        let (px, py) = self.film.place(x, y, [u, v]);
+        let (px, py) = self.film.place(x, y, sequence.point(Dimension::Film, 0, 1));
         let (ray, reach) = self.camera.ray(px, py);
         self.estimator.sample(&self.scene, &ray, reach, sequence)
     }

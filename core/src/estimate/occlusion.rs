@@ -42,8 +42,8 @@ impl Estimator for Occlusion {
         let draws = self.samples.max(1);
         let open = (0..draws)
             .filter(|&draw| {
-                let [u, v, _] = sequence.next(Dimension::Occlusion, draw, draws);
-                let wi = frame.to_world(warp::cosine_hemisphere([u, v]));
+                let u = sequence.point(Dimension::Occlusion, draw, draws);
+                let wi = frame.to_world(warp::cosine_hemisphere(u));
                 scene.visible(&hit.at, wi, self.reach)
             })
             .count();

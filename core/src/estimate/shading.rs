@@ -59,8 +59,8 @@ impl<'s, B: Bsdf> Shading<'s, B> {
 
     /// Draws a world direction from the BSDF.
     #[inline]
-    pub(super) fn sample(&self, [u, v, lobe]: [f32; 3]) -> Option<(Vec3, f32)> {
-        let BsdfSample { wi, pdf_solid_angle } = self.bsdf.sample(self.wo, [u, v], lobe)?;
+    pub(super) fn sample(&self, u: [f32; 2], lobe: f32) -> Option<(Vec3, f32)> {
+        let BsdfSample { wi, pdf_solid_angle } = self.bsdf.sample(self.wo, u, lobe)?;
         Some((self.frame.to_world(wi), pdf_solid_angle))
     }
 }

@@ -1,9 +1,9 @@
 //! Where the uniforms come from.
 //!
 //! A sample of a pixel asks for uniforms by *dimension* (what they decide) and *index* (which of
-//! the draws for that decision this is). Each pixel and each dimension gets its own scramble, so that
-//! nothing is correlated between them; within a dimension the points of all samples of a pixel form
-//! one sequence, so that any power of two of them is well spread.
+//! the draws for that decision this is). Each pixel gets its own scramble, so that nothing is
+//! correlated between pixels; within a dimension the points of all samples of a pixel form one
+//! sequence, so that any power of two of them is well spread.
 
 mod random;
 mod sobol;
@@ -47,10 +47,13 @@ pub trait Sequence {
     /// Turns to sample `sample` of pixel number `pixel`.
     fn start(&mut self, pixel: u32, sample: u32);
 
-    /// Three uniforms in `[0, 1)`: two for a point, one for a choice.
+    /// Two uniforms in `[0, 1)` for a point.
     ///
     /// * `draw` – which of the `draws` that every sample makes in this dimension
-    fn next(&mut self, dimension: Dimension, draw: u32, draws: u32) -> [f32; 3];
+    fn point(&mut self, dimension: Dimension, draw: u32, draws: u32) -> [f32; 2];
+
+    /// One uniform in `[0, 1)` for a choice that goes with that point.
+    fn choice(&mut self, dimension: Dimension, draw: u32, draws: u32) -> f32;
 }
 
 /// Either sequence, chosen at run time.
@@ -72,10 +75,18 @@ impl Sequence for AnySequence {
     }
 
     #[inline]
-    fn next(&mut self, dimension: Dimension, draw: u32, draws: u32) -> [f32; 3] {
+    fn point(&mut self, dimension: Dimension, draw: u32, draws: u32) -> [f32; 2] {
         match self {
-            Self::Random(s) => s.next(dimension, draw, draws),
-            Self::Sobol(s) => s.next(dimension, draw, draws),
+            Self::Random(s) => s.point(dimension, draw, draws),
+            Self::Sobol(s) => s.point(dimension, draw, draws),
+        }
+    }
+
+    #[inline]
+    fn choice(&mut self, dimension: Dimension, draw: u32, draws: u32) -> f32 {
+        match self {
+            Self::Random(s) => s.choice(dimension, draw, draws),
+            Self::Sobol(s) => s.choice(dimension, draw, draws),
         }
     }
 }

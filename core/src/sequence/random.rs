@@ -28,7 +28,12 @@ impl<R: Rng + SeedableRng> Sequence for Random<R> {
     }
 
     #[inline]
-    fn next(&mut self, _: Dimension, _: u32, _: u32) -> [f32; 3] {
-        [0; 3].map(|_| num::unit_f32(self.generator.next_u32()))
+    fn point(&mut self, _: Dimension, _: u32, _: u32) -> [f32; 2] {
+        [0; 2].map(|_| num::unit_f32(self.generator.next_u32()))
+    }
+
+    #[inline]
+    fn choice(&mut self, _: Dimension, _: u32, _: u32) -> f32 {
+        num::unit_f32(self.generator.next_u32())
     }
 }

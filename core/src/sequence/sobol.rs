@@ -2,11 +2,18 @@
 
 use super::{Dimension, Sequence};
 use crate::num;
+use sobol_burley::{sample, sample_4d};
 
 /// Points per scramble; beyond it a new, independent scramble begins.
 const BLOCK: u32 = 1 << 16;
 
-/// Owen-scrambled Sobol points, with the same first dimensions padded for each decision.
+/// Owen-scrambled Sobol points.
+///
+/// The place in the pixel and the decision that follows it (a point of the first light, or a
+/// direction for occlusion) are one four-dimensional point: a penumbra seen through a pixel is a
+/// function of all four. Measured on the peers' scene `rect` at 64 samples: relMSE 8.3e-5, against
+/// 1.03e-4 with two unrelated two-dimensional points. Further decisions reuse the best dimensions
+/// under scrambles of their own (padding).
 ///
 /// Source: Burley 2020, *Practical Hash-based Owen Scrambling*, JCGT 9(4); crate `sobol_burley`.
 #[derive(Debug, Clone)]
@@ -14,13 +21,23 @@ pub struct Sobol {
     seed: u32,
     pixel_seed: u32,
     sample: u32,
+    /// The place in the pixel, and the decision that follows it.
+    first: [f32; 4],
 }
 
 impl Sobol {
     /// A sequence for one picture; another seed gives other noise.
     #[must_use]
     pub const fn new(seed: u32) -> Self {
-        Self { seed, pixel_seed: 0, sample: 0 }
+        Self { seed, pixel_seed: 0, sample: 0, first: [0.0; 4] }
+    }
+
+    /// Index within a scramble, and the scramble's seed.
+    #[inline]
+    fn place(&self, dimension: Dimension, draw: u32, draws: u32) -> (u32, u32) {
+        let index = u64::from(self.sample) * u64::from(draws) + u64::from(draw);
+        let block = (index / u64::from(BLOCK)) as u32;
+        (index as u32 % BLOCK, num::hash2(self.pixel_seed, dimension.key() ^ block.rotate_left(16)))
     }
 }
 
@@ -29,14 +46,88 @@ impl Sequence for Sobol {
     fn start(&mut self, pixel: u32, sample: u32) {
         self.pixel_seed = num::hash2(pixel, self.seed);
         self.sample = sample;
+        let (index, seed) = self.place(Dimension::Film, 0, 1);
+        self.first = sample_4d(index, 0, seed);
     }
 
     #[inline]
-    fn next(&mut self, dimension: Dimension, draw: u32, draws: u32) -> [f32; 3] {
-        let index = u64::from(self.sample) * u64::from(draws) + u64::from(draw);
-        let block = (index / u64::from(BLOCK)) as u32;
-        let seed = num::hash2(self.pixel_seed, dimension.key() ^ block.rotate_left(16));
-        let [x, y, z, _] = sobol_burley::sample_4d(index as u32 % BLOCK, 0, seed);
-        [x, y, z]
+    fn point(&mut self, dimension: Dimension, draw: u32, draws: u32) -> [f32; 2] {
+        let [x, y, z, w] = self.first;
+        match dimension {
+            Dimension::Film => [x, y],
+            Dimension::Light(0) | Dimension::Occlusion if draws == 1 => [z, w],
+            _ => {
+                let (index, seed) = self.place(dimension, draw, draws);
+                let [x, y, _, _] = sample_4d(index, 0, seed);
+                [x, y]
+            }
+        }
+    }
+
+    #[inline]
+    fn choice(&mut self, dimension: Dimension, draw: u32, draws: u32) -> f32 {
+        let (index, seed) = self.place(dimension, draw, draws);
+        sample(index, 2, seed)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_power_of_two_of_points_fills_every_cell_once() {
+        // 256 points: one in each of 16 × 16 cells, for the film, a light with its neighbours' draws,
+        // and a choice among 256.
+        for (dimension, draws) in [(Dimension::Film, 1), (Dimension::Light(3), 1), (Dimension::Bsdf, 4)] {
+            let (mut cells, mut choices) = ([0_u32; 256], [0_u32; 256]);
+            let mut s = Sobol::new(9);
+            for sample in 0..256 / draws {
+                s.start(77, sample);
+                for draw in 0..draws {
+                    let [x, y] = s.point(dimension, draw, draws);
+                    cells[(x * 16.0) as usize * 16 + (y * 16.0) as usize] += 1;
+                    choices[(s.choice(dimension, draw, draws) * 256.0) as usize] += 1;
+                }
+            }
+            assert_eq!(cells, [1; 256], "{dimension:?}");
+            assert_eq!(choices, [1; 256], "{dimension:?}");
+        }
+    }
+
+    #[test]
+    fn pixels_and_dimensions_are_not_correlated() {
+        let n = 1 << 12;
+        let mean_product = |a: (u32, Dimension), b: (u32, Dimension)| {
+            let (mut s, mut t, mut sum) = (Sobol::new(1), Sobol::new(1), 0.0);
+            for i in 0..n {
+                s.start(a.0, i);
+                t.start(b.0, i);
+                sum += (s.point(a.1, 0, 1)[0] - 0.5) * (t.point(b.1, 0, 1)[0] - 0.5);
+            }
+            sum / n as f32
+        };
+        // Independent uniforms: variance 1/144 per product, five standard errors.
+        let bound = 5.0 / 12.0 / (n as f32).sqrt();
+        for (a, b) in [
+            ((5, Dimension::Film), (6, Dimension::Film)),
+            ((5, Dimension::Light(0)), (5, Dimension::Bsdf)),
+            ((5, Dimension::Light(1)), (5, Dimension::Light(2))),
+            ((5, Dimension::Film), (5, Dimension::Light(0))),
+        ] {
+            assert!(mean_product(a, b).abs() < bound, "{a:?} {b:?}");
+        }
+        assert!(mean_product((5, Dimension::Film), (5, Dimension::Film)) > bound);
+    }
+
+    #[test]
+    fn more_samples_than_a_scramble_holds_stay_uniform() {
+        let mut s = Sobol::new(0);
+        let mut sum = 0.0;
+        for i in 65_536..66_560 {
+            s.start(0, i);
+            sum += f64::from(s.point(Dimension::Film, 0, 1)[0]);
+        }
+        assert!((sum / 1024.0 - 0.5).abs() < 1e-3);
     }
 }
