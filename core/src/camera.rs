@@ -8,7 +8,7 @@ use glam::Vec3;
 /// have a left-handed `right`, so it is kept rather than derived.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct View {
-    /// The eye, or the middle of the orthographic window [m].
+    /// The eye, or the middle of the orthographic window (m).
     pub origin: Vec3,
     /// To the right in the picture.
     pub right: Vec3,
@@ -40,9 +40,9 @@ pub enum CameraError {
     Extent(f32),
     /// The clipping distances are not `0 ≤ near < far`.
     Clip {
-        /// Near distance [m].
+        /// Near distance (m).
         near: f32,
-        /// Far distance [m].
+        /// Far distance (m).
         far: f32,
     },
 }
@@ -95,7 +95,7 @@ impl Camera {
 
     /// Parallel rays.
     ///
-    /// * `half_width`, `half_height` – of the window [m]
+    /// * `half_width`, `half_height` – of the window (m)
     ///
     /// # Errors
     /// When an extent is not positive and finite, or the view not finite.
@@ -121,7 +121,7 @@ impl Camera {
         Ok(Self { view, projection, half_width, half_height, near: 0.0, far: f32::INFINITY })
     }
 
-    /// Shows only what lies between two distances along the line of sight [m].
+    /// Shows only what lies between two distances along the line of sight (m).
     ///
     /// # Errors
     /// When they are not `0 ≤ near < far`.

@@ -3,7 +3,7 @@
 use crate::num;
 use core::fmt;
 
-/// Largest width or height of a film [pixels].
+/// Largest width or height of a film (pixels).
 pub const MAX_RESOLUTION: u32 = 1 << 16;
 
 /// How samples near a pixel make up its value.
@@ -15,19 +15,19 @@ pub const MAX_RESOLUTION: u32 = 1 << 16;
 /// Source: Ernst, Stamminger, Greiner 2006, *Filter Importance Sampling*, IEEE RT.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Filter {
-    /// The same weight up to `radius` [pixels]; ½ is the pixel itself.
+    /// The same weight up to `radius` (pixels); ½ is the pixel itself.
     Box {
-        /// Half of its width [pixels].
+        /// Half of its width (pixels).
         radius: f32,
     },
-    /// Weight falling linearly to 0 at `radius` [pixels].
+    /// Weight falling linearly to 0 at `radius` (pixels).
     Tent {
-        /// Half of its width [pixels].
+        /// Half of its width (pixels).
         radius: f32,
     },
-    /// A bell of the given standard deviation, cut off at four of them [pixels].
+    /// A bell of the given standard deviation, cut off at four of them (pixels).
     Gaussian {
-        /// Standard deviation [pixels].
+        /// Standard deviation (pixels).
         stddev: f32,
     },
 }
@@ -36,7 +36,7 @@ impl Filter {
     /// The pixel itself.
     pub const PIXEL: Self = Self::Box { radius: 0.5 };
 
-    /// An offset from the pixel's centre [pixels], distributed as the filter.
+    /// An offset from the pixel's centre (pixels), distributed as the filter.
     #[inline]
     #[must_use]
     pub fn sample(&self, u: [f32; 2]) -> [f32; 2] {

@@ -2,10 +2,10 @@
 
 /// Turns a density over a light's area into one over solid angle: `p_ω = p_A d² / cos θ`.
 ///
-/// * `pdf_area` [m⁻²], `distance_squared` [m²]
+/// * `pdf_area` (m⁻²), `distance_squared` (m²)
 /// * `cos_light` – cosine between the light's normal and the direction back to the receiver
 ///
-/// Returns [sr⁻¹]; `None` edge-on, from behind, at distance 0, or where the density would not be a
+/// Returns (sr⁻¹); `None` edge-on, from behind, at distance 0, or where the density would not be a
 /// positive finite number.
 #[inline]
 #[must_use]
@@ -17,10 +17,10 @@ pub fn area_to_solid_angle(pdf_area: f32, distance_squared: f32, cos_light: f32)
     (pdf > 0.0 && pdf < f32::INFINITY).then_some(pdf)
 }
 
-/// The geometry term of the area form, `G = cos θ_i cos θ' / d²` [m⁻²]; 0 from behind on either side.
+/// The geometry term of the area form, `G = cos θ_i cos θ' / d²` (m⁻²); 0 from behind on either side.
 ///
 /// * `cos_receiver`, `cos_light` – cosines at the two ends
-/// * `distance_squared` [m²], above 0
+/// * `distance_squared` (m²), above 0
 #[inline]
 #[must_use]
 pub fn geometry_term(cos_receiver: f32, cos_light: f32, distance_squared: f32) -> f32 {

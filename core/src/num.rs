@@ -27,7 +27,7 @@ pub fn sqrt(x: f32) -> f32 {
     libm::sqrtf(if x > 0.0 { x } else { 0.0 })
 }
 
-/// Sine and cosine of an angle [rad].
+/// Sine and cosine of an angle (rad).
 #[inline]
 #[must_use]
 pub fn sin_cos(x: f32) -> (f32, f32) {
@@ -69,21 +69,21 @@ pub fn ln_1p(x: f32) -> f32 {
     libm::log1pf(x)
 }
 
-/// Angle of the vector (x, y) [rad], in `[−π, π]`.
+/// Angle of the vector (x, y) (rad), in `[−π, π]`.
 #[inline]
 #[must_use]
 pub fn atan2(y: f32, x: f32) -> f32 {
     libm::atan2f(y, x)
 }
 
-/// Arc cosine [rad]; the argument is clamped to `[−1, 1]`.
+/// Arc cosine (rad); the argument is clamped to `[−1, 1]`.
 #[inline]
 #[must_use]
 pub fn acos(x: f32) -> f32 {
     libm::acosf(x.clamp(-1.0, 1.0))
 }
 
-/// Tangent of an angle [rad].
+/// Tangent of an angle (rad).
 #[inline]
 #[must_use]
 pub fn tan(x: f32) -> f32 {

@@ -3,7 +3,7 @@
 use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Sub};
 
 /// Three linear channels with sRGB primaries. What they measure is said where one is used:
-/// radiance [W m⁻² sr⁻¹], irradiance [W m⁻²], intensity [W sr⁻¹], reflectance [1].
+/// radiance (W m⁻² sr⁻¹), irradiance (W m⁻²), intensity (W sr⁻¹), reflectance (1).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[repr(C)]
 pub struct Rgb {

@@ -103,7 +103,7 @@ pub struct Interaction {
     pub at: SurfacePoint,
     /// Shading normal, on the front side.
     pub shading_normal: Vec3,
-    /// Distance along the ray [m].
+    /// Distance along the ray (m).
     pub distance: f32,
     /// Index of the BSDF.
     pub bsdf: u32,
@@ -198,7 +198,7 @@ impl<'a, S: Shape, L: Emitter, B: Bsdf> Scene<'a, S, L, B> {
         self.environment.map(|i| (i as usize, &self.lights[i as usize]))
     }
 
-    /// The nearest surface within `reach` [m] along a ray with unit direction.
+    /// The nearest surface within `reach` (m) along a ray with unit direction.
     #[inline]
     #[must_use]
     pub fn closest_hit(&self, ray: &Ray, reach: f32) -> Option<Interaction> {
@@ -224,7 +224,7 @@ impl<'a, S: Shape, L: Emitter, B: Bsdf> Scene<'a, S, L, B> {
         Interaction { at, shading_normal, distance: hit.t, bsdf: surface.bsdf, light: surface.light }
     }
 
-    /// True when nothing stands between a surface point and a light `distance` [m] away, or anything
+    /// True when nothing stands between a surface point and a light `distance` (m) away, or anything
     /// at all when the distance is infinite.
     #[inline]
     #[must_use]
@@ -239,7 +239,7 @@ impl<'a, S: Shape, L: Emitter, B: Bsdf> Scene<'a, S, L, B> {
         })
     }
 
-    /// What leaves a surface point by its own light, toward the unit direction `wo` [W m⁻² sr⁻¹].
+    /// What leaves a surface point by its own light, toward the unit direction `wo` (W m⁻² sr⁻¹).
     #[inline]
     #[must_use]
     pub fn emitted(&self, at: &Interaction, wo: Vec3) -> Rgb {

@@ -67,7 +67,7 @@ pub fn triangle_to_square(b: [f32; 2]) -> [f32; 2] {
     if b[1] > b[0] { [2.0 * b[0], b[1] + b[0]] } else { [b[0] + b[1], 2.0 * b[1]] }
 }
 
-/// Unit square → directions, uniform over the sphere. Density `1/(4π)` [sr⁻¹].
+/// Unit square → directions, uniform over the sphere. Density `1/(4π)` (sr⁻¹).
 #[inline]
 #[must_use]
 pub fn uniform_sphere(u: [f32; 2]) -> Vec3 {
@@ -83,10 +83,10 @@ pub fn uniform_sphere_inverse(d: Vec3) -> [f32; 2] {
     [(1.0 - d.z) * 0.5, turn(d)]
 }
 
-/// Density of [`uniform_sphere`] [sr⁻¹].
+/// Density of [`uniform_sphere`] (sr⁻¹).
 pub const UNIFORM_SPHERE_PDF: f32 = 0.25 * FRAC_1_PI;
 
-/// Unit square → directions about `+z` with density `cos θ / π` [sr⁻¹]
+/// Unit square → directions about `+z` with density `cos θ / π` (sr⁻¹)
 /// (a uniform disk lifted to the hemisphere: Malley's method).
 #[inline]
 #[must_use]
@@ -95,7 +95,7 @@ pub fn cosine_hemisphere(u: [f32; 2]) -> Vec3 {
     Vec3::new(p.x, p.y, num::sqrt(1.0 - p.length_squared()))
 }
 
-/// Density of [`cosine_hemisphere`] [sr⁻¹]; 0 at and below the horizon.
+/// Density of [`cosine_hemisphere`] (sr⁻¹); 0 at and below the horizon.
 #[inline]
 #[must_use]
 pub fn cosine_hemisphere_pdf(cos_theta: f32) -> f32 {
@@ -108,14 +108,14 @@ pub fn cosine_hemisphere_inverse(d: Vec3) -> [f32; 2] {
     disk_to_square(Vec2::new(d.x, d.y))
 }
 
-/// Unit square → directions, uniform over the hemisphere about `+z`. Density `1/(2π)` [sr⁻¹].
+/// Unit square → directions, uniform over the hemisphere about `+z`. Density `1/(2π)` (sr⁻¹).
 #[inline]
 #[must_use]
 pub fn uniform_hemisphere(u: [f32; 2]) -> Vec3 {
     cone(u, 1.0)
 }
 
-/// Density of [`uniform_hemisphere`] [sr⁻¹].
+/// Density of [`uniform_hemisphere`] (sr⁻¹).
 pub const UNIFORM_HEMISPHERE_PDF: f32 = 0.5 * FRAC_1_PI;
 
 /// Unit square → directions, uniform over a cone about `+z`.
@@ -135,7 +135,7 @@ pub fn cone(u: [f32; 2], one_minus_cos_max: f32) -> Vec3 {
     Vec3::new(sin_theta * cos, sin_theta * sin, 1.0 - x)
 }
 
-/// Density of [`cone`] [sr⁻¹].
+/// Density of [`cone`] (sr⁻¹).
 #[inline]
 #[must_use]
 pub fn cone_pdf(one_minus_cos_max: f32) -> f32 {
@@ -150,7 +150,7 @@ pub fn cone_inverse(d: Vec3, one_minus_cos_max: f32) -> [f32; 2] {
     [x / one_minus_cos_max, turn(d)]
 }
 
-/// Unit square → directions about `+z` with density `(n + 1)/(2π) cosⁿ θ` [sr⁻¹].
+/// Unit square → directions about `+z` with density `(n + 1)/(2π) cosⁿ θ` (sr⁻¹).
 ///
 /// Source: Shirley, Wang, Zimmerman 1996 (as [`cone`]), section 3.3. Differs: `1 − cos θ` comes from
 /// `expm1`, so that the lobe of exponent 1e7 keeps its shape.
@@ -163,7 +163,7 @@ pub fn power_cosine(u: [f32; 2], exponent: f32) -> Vec3 {
     Vec3::new(sin_theta * cos, sin_theta * sin, 1.0 - x)
 }
 
-/// Density of [`power_cosine`] [sr⁻¹]; 0 at and below the horizon.
+/// Density of [`power_cosine`] (sr⁻¹); 0 at and below the horizon.
 #[inline]
 #[must_use]
 pub fn power_cosine_pdf(cos_theta: f32, exponent: f32) -> f32 {

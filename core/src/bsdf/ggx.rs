@@ -46,7 +46,7 @@ impl GgxConductor {
         self.alpha
     }
 
-    /// Distribution of facet normals `D(h)` [sr⁻¹]. `cos² + sin²/α²` keeps its digits for small `α`.
+    /// Distribution of facet normals `D(h)` (sr⁻¹). `cos² + sin²/α²` keeps its digits for small `α`.
     #[inline]
     fn distribution(&self, h: Vec3) -> f32 {
         let a2 = self.alpha * self.alpha;
@@ -100,7 +100,7 @@ impl Bsdf for GgxConductor {
         (pdf_solid_angle > 0.0 && pdf_solid_angle.is_finite()).then_some(BsdfSample { wi, pdf_solid_angle })
     }
 
-    /// `D G1 / (4 cos θ_o)` [sr⁻¹].
+    /// `D G1 / (4 cos θ_o)` (sr⁻¹).
     #[inline]
     fn pdf_solid_angle(&self, wo: Vec3, wi: Vec3) -> f32 {
         let Some(h) = Self::half(wo, wi) else { return 0.0 };

@@ -38,7 +38,7 @@ impl Bsdf for Lambert {
         self.reflectance * FRAC_1_PI
     }
 
-    /// Density `cos θ / π` [sr⁻¹].
+    /// Density `cos θ / π` (sr⁻¹).
     #[inline]
     fn sample(&self, wo: Vec3, u: [f32; 2], _u_lobe: f32) -> Option<BsdfSample> {
         let wi = warp::cosine_hemisphere(u);

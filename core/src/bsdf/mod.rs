@@ -24,7 +24,7 @@ use glam::Vec3;
 pub struct BsdfSample {
     /// Unit direction, local.
     pub wi: Vec3,
-    /// Density with which it was drawn [sr⁻¹]; finite and positive.
+    /// Density with which it was drawn (sr⁻¹); finite and positive.
     pub pdf_solid_angle: f32,
 }
 
@@ -32,7 +32,7 @@ pub struct BsdfSample {
 ///
 /// The density of a sample is [`Bsdf::pdf_solid_angle`] of its direction: one function for both.
 pub trait Bsdf: Copy {
-    /// `f_r(wo, wi)` without the cosine [sr⁻¹]; 0 when either direction is not above the surface.
+    /// `f_r(wo, wi)` without the cosine (sr⁻¹); 0 when either direction is not above the surface.
     fn eval(&self, wo: Vec3, wi: Vec3) -> Rgb;
 
     /// Draws `wi`; `None` when nothing is reflected.
@@ -40,7 +40,7 @@ pub trait Bsdf: Copy {
     /// * `u` – two uniforms for the direction, `u_lobe` one for the choice among lobes; in `[0, 1)`
     fn sample(&self, wo: Vec3, u: [f32; 2], u_lobe: f32) -> Option<BsdfSample>;
 
-    /// Density with which [`Bsdf::sample`] draws `wi` [sr⁻¹]; 0 where it never does.
+    /// Density with which [`Bsdf::sample`] draws `wi` (sr⁻¹); 0 where it never does.
     fn pdf_solid_angle(&self, wo: Vec3, wi: Vec3) -> f32;
 
     /// Fraction of the light that is reflected, roughly: for images of albedo, not for transport.

@@ -73,7 +73,7 @@ pub struct Object {
 /// What a surface emits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Emission {
-    /// Radiance [W m⁻² sr⁻¹].
+    /// Radiance (W m⁻² sr⁻¹).
     pub radiance: Rgb,
     /// From both sides, or only from the front.
     pub two_sided: bool,
@@ -91,7 +91,7 @@ pub enum Geometry {
 /// Triangles with shared corners.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Mesh {
-    /// Corners [m].
+    /// Corners (m).
     pub positions: Vec<Vec3>,
     /// A shading normal for each corner, of unit length; empty for flat shading.
     pub normals: Vec<Vec3>,
@@ -106,9 +106,9 @@ pub struct CameraDescription {
     pub view: View,
     /// Perspective or orthographic.
     pub projection: ProjectionDescription,
-    /// Near clipping distance [m].
+    /// Near clipping distance (m).
     pub near: f32,
-    /// Far clipping distance [m].
+    /// Far clipping distance (m).
     pub far: f32,
 }
 
@@ -117,14 +117,14 @@ pub struct CameraDescription {
 pub enum ProjectionDescription {
     /// Rays through one point.
     Perspective {
-        /// Full field of view along `axis` [degrees], in (0, 180).
+        /// Full field of view along `axis` (degrees), in (0, 180).
         fov: f32,
         /// Which extent of the picture `fov` is measured along.
         axis: FovAxis,
     },
     /// Parallel rays.
     Orthographic {
-        /// Half of the window's width [m].
+        /// Half of the window's width (m).
         half_width: f32,
     },
 }

@@ -68,7 +68,7 @@ impl Default for Direct<'_> {
 }
 
 impl Direct<'_> {
-    /// Light that the surface point reflects toward the viewer [W m⁻² sr⁻¹]: one sample.
+    /// Light that the surface point reflects toward the viewer (W m⁻² sr⁻¹): one sample.
     #[inline]
     fn reflected<S: Shape, L: Emitter, B: Bsdf>(
         &self,

@@ -25,7 +25,7 @@ use crate::shape::Shape;
 
 /// Something that can be estimated along a camera ray.
 pub trait Estimator {
-    /// One sample of what arrives along `ray` from within `reach` [m].
+    /// One sample of what arrives along `ray` from within `reach` (m).
     ///
     /// `sequence` has been turned to the sample; the camera has used its [`crate::sequence::Dimension::Film`].
     fn sample<S: Shape, L: Emitter, B: Bsdf>(

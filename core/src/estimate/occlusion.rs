@@ -15,7 +15,7 @@ use crate::warp;
 /// materials do not enter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Occlusion {
-    /// What is farther than this does not occlude [m]; may be infinite.
+    /// What is farther than this does not occlude (m); may be infinite.
     pub reach: f32,
     /// Directions per camera sample.
     pub samples: u32,

@@ -51,7 +51,7 @@ impl<'s, B: Bsdf> Shading<'s, B> {
         (!f.is_black()).then(|| Reflected { f_cos: f * cos_theta, local })
     }
 
-    /// Density of a direction that [`Shading::reflect`] has accepted [sr⁻¹].
+    /// Density of a direction that [`Shading::reflect`] has accepted (sr⁻¹).
     #[inline]
     pub(super) fn pdf_solid_angle(&self, reflected: &Reflected) -> f32 {
         self.bsdf.pdf_solid_angle(self.wo, reflected.local)
@@ -67,7 +67,7 @@ impl<'s, B: Bsdf> Shading<'s, B> {
 
 /// What a surface makes of light from one direction.
 pub(super) struct Reflected {
-    /// BSDF times cosine [sr⁻¹].
+    /// BSDF times cosine (sr⁻¹).
     pub(super) f_cos: Rgb,
     local: Vec3,
 }

@@ -5,9 +5,9 @@ use glam::Vec3;
 /// An axis-aligned box; empty when `min > max` on any axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Aabb {
-    /// Lower corner [m].
+    /// Lower corner (m).
     pub min: Vec3,
-    /// Upper corner [m].
+    /// Upper corner (m).
     pub max: Vec3,
 }
 
@@ -34,7 +34,7 @@ impl Aabb {
         !self.min.cmple(self.max).all()
     }
 
-    /// Half of the surface area [m²]; 0 when empty.
+    /// Half of the surface area (m²); 0 when empty.
     #[inline]
     #[must_use]
     pub fn half_area(&self) -> f32 {
@@ -48,7 +48,7 @@ impl Aabb {
         self.min * 0.5 + self.max * 0.5
     }
 
-    /// Length of the diagonal [m]; 0 when empty.
+    /// Length of the diagonal (m); 0 when empty.
     #[must_use]
     pub fn diagonal(&self) -> f32 {
         if self.is_empty() { 0.0 } else { (self.max - self.min).length() }

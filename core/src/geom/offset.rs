@@ -4,8 +4,8 @@ use glam::Vec3;
 
 /// Moves a point on a surface just off it, to the side that `direction` points to.
 ///
-/// * `point` – computed surface point [m]
-/// * `error` – bound on the absolute error of `point`, per axis [m]
+/// * `point` – computed surface point (m)
+/// * `error` – bound on the absolute error of `point`, per axis (m)
 /// * `normal` – geometric unit normal, on either side
 /// * `direction` – where the ray will go
 ///

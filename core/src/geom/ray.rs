@@ -5,7 +5,7 @@ use glam::Vec3;
 /// A half-line: `origin + t direction`, `t > 0`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ray {
-    /// Where it starts [m].
+    /// Where it starts (m).
     pub origin: Vec3,
     /// Where it goes; a unit vector wherever `t` is used as a distance.
     pub direction: Vec3,

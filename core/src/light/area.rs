@@ -27,7 +27,7 @@ pub struct SurfaceSample {
     pub at: SurfacePoint,
     /// Unit direction from the receiver to the point.
     pub wi: Vec3,
-    /// Its distance [m].
+    /// Its distance (m).
     pub distance: f32,
 }
 
@@ -47,7 +47,7 @@ impl SurfaceSample {
 /// One function, [`SampledShape::pdf_solid_angle`], decides the density for sampled and for queried
 /// directions alike, so the two cannot disagree.
 pub trait SampledShape: Shape {
-    /// A point uniform over the surface, density `1 / area` [m⁻²].
+    /// A point uniform over the surface, density `1 / area` (m⁻²).
     fn sample_area(&self, u: [f32; 2]) -> SurfacePoint;
 
     /// Inverse of [`SampledShape::sample_area`].
@@ -60,7 +60,7 @@ pub trait SampledShape: Shape {
         SurfaceSample::toward(from.point, self.sample_area(u))
     }
 
-    /// Density of the direction `wi` that meets the surface at `at` [sr⁻¹]; `None` where it is
+    /// Density of the direction `wi` that meets the surface at `at` (sr⁻¹); `None` where it is
     /// never drawn.
     ///
     /// * `cos_light` – cosine between the emitting side's normal and `−wi`, above 0
@@ -88,7 +88,7 @@ pub struct AreaLight<S> {
 impl<S: SampledShape> AreaLight<S> {
     /// A light that emits from the side that the shape's normal points to.
     ///
-    /// * `radiance` [W m⁻² sr⁻¹]
+    /// * `radiance` (W m⁻² sr⁻¹)
     ///
     /// # Errors
     /// When the radiance is negative, NaN or infinite.

@@ -15,7 +15,7 @@ pub struct Constant {
 }
 
 impl Constant {
-    /// An environment that sends `radiance` [W m⁻² sr⁻¹] from each direction.
+    /// An environment that sends `radiance` (W m⁻² sr⁻¹) from each direction.
     ///
     /// # Errors
     /// When the radiance is negative, NaN or infinite.
@@ -25,7 +25,7 @@ impl Constant {
 }
 
 impl Emitter for Constant {
-    /// Cosine about the receiver's normal, `cos θ / π` [sr⁻¹]: the only directions that count, each
+    /// Cosine about the receiver's normal, `cos θ / π` (sr⁻¹): the only directions that count, each
     /// as often as it counts.
     #[inline]
     fn sample(&self, from: &Receiver, _: SurfaceDensity, u: [f32; 2]) -> Option<LightSample> {

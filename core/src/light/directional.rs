@@ -15,7 +15,7 @@ pub struct Directional {
 }
 
 impl Directional {
-    /// Light that travels along `direction` and brings `irradiance` [W m⁻²] to a surface facing it.
+    /// Light that travels along `direction` and brings `irradiance` (W m⁻²) to a surface facing it.
     ///
     /// # Errors
     /// When the direction has no length, or the irradiance is negative, NaN or infinite.
@@ -30,7 +30,7 @@ impl Directional {
         self.direction
     }
 
-    /// Irradiance on a surface facing the light [W m⁻²].
+    /// Irradiance on a surface facing the light (W m⁻²).
     #[must_use]
     pub const fn irradiance(&self) -> Rgb {
         self.irradiance

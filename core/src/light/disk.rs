@@ -6,7 +6,7 @@ use crate::warp;
 use glam::{Vec2, Vec3};
 
 impl SampledShape for Disk {
-    /// Density `1 / (π a b)` [m⁻²]; the concentric map, stretched along the axes.
+    /// Density `1 / (π a b)` (m⁻²); the concentric map, stretched along the axes.
     #[inline]
     fn sample_area(&self, u: [f32; 2]) -> SurfacePoint {
         let p = warp::square_to_disk(u);

@@ -21,9 +21,9 @@ pub enum LightError {
     NoDirection,
     /// The angles of a spot are not `0 ≤ beam ≤ cutoff ≤ π`, `cutoff > 0`.
     Angles {
-        /// Half-angle of full intensity [rad].
+        /// Half-angle of full intensity (rad).
         beam: f32,
-        /// Half-angle beyond which nothing is sent [rad].
+        /// Half-angle beyond which nothing is sent (rad).
         cutoff: f32,
     },
 }

@@ -30,7 +30,7 @@ use glam::Vec3;
 /// Where light is gathered.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Receiver {
-    /// The point [m].
+    /// The point (m).
     pub point: Vec3,
     /// Unit normal on the side that is looked at.
     pub normal: Vec3,
@@ -39,10 +39,10 @@ pub struct Receiver {
 /// How likely a direction was to be drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Density {
-    /// Over solid angle at the receiver [sr⁻¹]; finite and positive. The incident quantity is radiance.
+    /// Over solid angle at the receiver (sr⁻¹); finite and positive. The incident quantity is radiance.
     SolidAngle(f32),
     /// No ray meets this light by chance, so nothing is weighted against it. The incident quantity
-    /// is the irradiance on a surface that faces the light [W m⁻²].
+    /// is the irradiance on a surface that faces the light (W m⁻²).
     Delta,
 }
 
@@ -51,9 +51,9 @@ pub enum Density {
 pub struct LightSample {
     /// Unit direction from the receiver to the light.
     pub wi: Vec3,
-    /// How far the light is [m]; infinite for lights without a place.
+    /// How far the light is (m); infinite for lights without a place.
     pub distance: f32,
-    /// Radiance [W m⁻² sr⁻¹], or irradiance [W m⁻²] of a delta light.
+    /// Radiance (W m⁻² sr⁻¹), or irradiance (W m⁻²) of a delta light.
     pub incident: Rgb,
     /// How likely `wi` was.
     pub density: Density,
@@ -72,13 +72,13 @@ pub trait Emitter: Copy {
     fn sample(&self, from: &Receiver, method: SurfaceDensity, u: [f32; 2]) -> Option<LightSample>;
 
     /// Density with which [`Emitter::sample`] draws the direction `wi` that meets the light's
-    /// surface at `at` [sr⁻¹]; 0 where it never does.
+    /// surface at `at` (sr⁻¹); 0 where it never does.
     fn pdf_solid_angle(&self, from: &Receiver, method: SurfaceDensity, wi: Vec3, at: &SurfacePoint) -> f32 {
         let _ = (from, method, wi, at);
         0.0
     }
 
-    /// Density with which [`Emitter::sample`] draws the direction `wi` that meets nothing [sr⁻¹];
+    /// Density with which [`Emitter::sample`] draws the direction `wi` that meets nothing (sr⁻¹);
     /// 0 unless the light is an environment.
     fn pdf_escaping(&self, from: &Receiver, wi: Vec3) -> f32 {
         let _ = (from, wi);
@@ -86,13 +86,13 @@ pub trait Emitter: Copy {
     }
 
     /// Radiance that a surface point of the light with front normal `normal` sends toward the unit
-    /// direction `wo` [W m⁻² sr⁻¹].
+    /// direction `wo` (W m⁻² sr⁻¹).
     fn radiance(&self, normal: Vec3, wo: Vec3) -> Rgb {
         let _ = (normal, wo);
         Rgb::BLACK
     }
 
-    /// Radiance that arrives along `wi` from beyond all surfaces [W m⁻² sr⁻¹].
+    /// Radiance that arrives along `wi` from beyond all surfaces (W m⁻² sr⁻¹).
     fn radiance_escaping(&self, wi: Vec3) -> Rgb {
         let _ = wi;
         Rgb::BLACK
@@ -108,7 +108,7 @@ pub trait Emitter: Copy {
         false
     }
 
-    /// Power into a scene that fits a sphere of `scene_radius` [m], as average over the channels [W].
+    /// Power into a scene that fits a sphere of `scene_radius` (m), as average over the channels (W).
     /// Used for choosing among lights; positive for every light that emits.
     fn power(&self, scene_radius: f32) -> f32;
 }

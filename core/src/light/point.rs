@@ -15,7 +15,7 @@ pub struct Point {
 }
 
 impl Point {
-    /// A light at `position` [m] with `intensity` [W sr⁻¹].
+    /// A light at `position` (m) with `intensity` (W sr⁻¹).
     ///
     /// # Errors
     /// When a number is NaN or infinite, or the intensity negative.
@@ -26,13 +26,13 @@ impl Point {
         Ok(Self { position, intensity: check_emission("the intensity", intensity)? })
     }
 
-    /// Position [m].
+    /// Position (m).
     #[must_use]
     pub const fn position(&self) -> Vec3 {
         self.position
     }
 
-    /// Intensity [W sr⁻¹].
+    /// Intensity (W sr⁻¹).
     #[must_use]
     pub const fn intensity(&self) -> Rgb {
         self.intensity

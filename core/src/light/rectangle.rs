@@ -6,7 +6,7 @@ use crate::shape::{Rectangle, SurfacePoint};
 use glam::Vec3;
 
 impl SampledShape for Rectangle {
-    /// Density `1 / (w h)` [m⁻²].
+    /// Density `1 / (w h)` (m⁻²).
     #[inline]
     fn sample_area(&self, u: [f32; 2]) -> SurfacePoint {
         self.point(2.0 * u[0] - 1.0, 2.0 * u[1] - 1.0)

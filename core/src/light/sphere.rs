@@ -11,7 +11,7 @@ use glam::Vec3;
 /// The cone in which a sphere is seen from outside.
 struct Cone {
     axis: Vec3,
-    /// Distance to the centre [m].
+    /// Distance to the centre (m).
     distance: f32,
     /// `sin² θ_max`.
     sin2_max: f32,
@@ -55,7 +55,7 @@ impl Cone {
 }
 
 impl SampledShape for Sphere {
-    /// Density `1 / (4π r²)` [m⁻²]: half of the points are on the far side.
+    /// Density `1 / (4π r²)` (m⁻²): half of the points are on the far side.
     #[inline]
     fn sample_area(&self, u: [f32; 2]) -> SurfacePoint {
         self.point(warp::uniform_sphere(u))

@@ -20,10 +20,10 @@ pub struct Spot {
 }
 
 impl Spot {
-    /// A light at `position` [m] that points along `direction`.
+    /// A light at `position` (m) that points along `direction`.
     ///
-    /// * `intensity` – on the axis [W sr⁻¹]
-    /// * `beam`, `cutoff` – half-angles of full intensity and of any intensity [rad]
+    /// * `intensity` – on the axis (W sr⁻¹)
+    /// * `beam`, `cutoff` – half-angles of full intensity and of any intensity (rad)
     ///
     /// # Errors
     /// When a number is NaN or infinite, the intensity negative, the direction without length, or
@@ -46,7 +46,7 @@ impl Spot {
         Ok(Self { position, axis, intensity, beam, cutoff })
     }
 
-    /// Position [m].
+    /// Position (m).
     #[must_use]
     pub const fn position(&self) -> Vec3 {
         self.position
@@ -58,13 +58,13 @@ impl Spot {
         self.axis
     }
 
-    /// Intensity on the axis [W sr⁻¹].
+    /// Intensity on the axis (W sr⁻¹).
     #[must_use]
     pub const fn intensity(&self) -> Rgb {
         self.intensity
     }
 
-    /// Half-angles of full intensity and of any intensity [rad].
+    /// Half-angles of full intensity and of any intensity (rad).
     #[must_use]
     pub const fn angles(&self) -> (f32, f32) {
         (self.beam, self.cutoff)

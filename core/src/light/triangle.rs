@@ -6,7 +6,7 @@ use crate::warp;
 use glam::Vec3;
 
 impl SampledShape for Triangle {
-    /// Density `1 / area` [m⁻²].
+    /// Density `1 / area` (m⁻²).
     #[inline]
     fn sample_area(&self, u: [f32; 2]) -> SurfacePoint {
         let [b1, b2] = warp::square_to_triangle(u);

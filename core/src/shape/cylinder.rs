@@ -17,7 +17,7 @@ pub struct Cylinder {
 }
 
 impl Cylinder {
-    /// A cylinder around the segment from `base` to `base + axis` [m].
+    /// A cylinder around the segment from `base` to `base + axis` (m).
     ///
     /// # Errors
     /// When a number is not finite, or the radius or the length is 0 or beyond `f32`.
@@ -40,19 +40,19 @@ impl Cylinder {
         Ok(Self { base, axis, radius, inward: false })
     }
 
-    /// Centre of the lower end [m].
+    /// Centre of the lower end (m).
     #[must_use]
     pub const fn base(&self) -> Vec3 {
         self.base
     }
 
-    /// From the lower to the upper end [m].
+    /// From the lower to the upper end (m).
     #[must_use]
     pub const fn axis(&self) -> Vec3 {
         self.axis
     }
 
-    /// Radius [m].
+    /// Radius (m).
     #[must_use]
     pub const fn radius(&self) -> f32 {
         self.radius

@@ -11,7 +11,7 @@ use glam::Vec3;
 pub struct Disk(Planar);
 
 impl Disk {
-    /// An ellipse with the given semi-axes [m]; a disk when they have the same length.
+    /// An ellipse with the given semi-axes (m); a disk when they have the same length.
     ///
     /// # Errors
     /// When a coordinate is not finite, the area is 0 or beyond `f32`, or the axes are not at right
@@ -20,19 +20,19 @@ impl Disk {
         Planar::new(centre, axis_u, axis_v).map(Self)
     }
 
-    /// Centre [m].
+    /// Centre (m).
     #[must_use]
     pub fn centre(&self) -> Vec3 {
         self.0.centre
     }
 
-    /// First semi-axis [m].
+    /// First semi-axis (m).
     #[must_use]
     pub fn axis_u(&self) -> Vec3 {
         self.0.axis_u
     }
 
-    /// Second semi-axis [m].
+    /// Second semi-axis (m).
     #[must_use]
     pub fn axis_v(&self) -> Vec3 {
         self.0.axis_v

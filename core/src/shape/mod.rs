@@ -34,9 +34,9 @@ pub struct ShapeHit {
 /// A point on a surface with a bound on how far off it may be.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SurfacePoint {
-    /// The point [m].
+    /// The point (m).
     pub point: Vec3,
-    /// Bound on its absolute error, per axis [m].
+    /// Bound on its absolute error, per axis (m).
     pub error: Vec3,
     /// Geometric unit normal on the front side.
     pub normal: Vec3,
@@ -47,7 +47,7 @@ pub trait Shape: Copy {
     /// The smallest box around the shape, or one slightly larger; never smaller.
     fn bounds(&self) -> Aabb;
 
-    /// Surface area of the side that the normal points to [m²].
+    /// Surface area of the side that the normal points to (m²).
     fn area(&self) -> f32;
 
     /// The nearest intersection with `0 < t < t_max`. A ray that starts on the shape, moved off by

@@ -37,7 +37,7 @@ impl Planar {
         Ok(planar)
     }
 
-    /// Area of the parallelogram of the two half-axes [m²].
+    /// Area of the parallelogram of the two half-axes (m²).
     pub(super) fn half_axes_area(&self) -> f32 {
         // Lengths first: the cross product of 1e-12 axes would be subnormal before the root.
         self.axis_u.length() * self.axis_v.length()

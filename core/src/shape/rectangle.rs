@@ -14,7 +14,7 @@ const EDGE_SLACK: f32 = 1.0 + 4.0 * f32::EPSILON;
 pub struct Rectangle(Planar);
 
 impl Rectangle {
-    /// A rectangle with corners `centre ± half_u ± half_v` [m].
+    /// A rectangle with corners `centre ± half_u ± half_v` (m).
     ///
     /// # Errors
     /// When a coordinate is not finite, the area is 0 or beyond `f32`, or the edges are not at right
@@ -23,19 +23,19 @@ impl Rectangle {
         Planar::new(centre, half_u, half_v).map(Self)
     }
 
-    /// Centre [m].
+    /// Centre (m).
     #[must_use]
     pub fn centre(&self) -> Vec3 {
         self.0.centre
     }
 
-    /// First half-edge [m].
+    /// First half-edge (m).
     #[must_use]
     pub fn half_u(&self) -> Vec3 {
         self.0.axis_u
     }
 
-    /// Second half-edge [m].
+    /// Second half-edge (m).
     #[must_use]
     pub fn half_v(&self) -> Vec3 {
         self.0.axis_v

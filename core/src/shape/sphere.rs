@@ -14,7 +14,7 @@ pub struct Sphere {
 }
 
 impl Sphere {
-    /// A sphere from centre and radius [m].
+    /// A sphere from centre and radius (m).
     ///
     /// # Errors
     /// When a number is not finite, or the squared radius is not a normal `f32`.
@@ -31,13 +31,13 @@ impl Sphere {
         Ok(Self { centre, radius, inward: false })
     }
 
-    /// Centre [m].
+    /// Centre (m).
     #[must_use]
     pub const fn centre(&self) -> Vec3 {
         self.centre
     }
 
-    /// Radius [m].
+    /// Radius (m).
     #[must_use]
     pub const fn radius(&self) -> f32 {
         self.radius

@@ -14,7 +14,7 @@ pub struct Triangle {
 }
 
 impl Triangle {
-    /// A triangle from its corners [m].
+    /// A triangle from its corners (m).
     ///
     /// # Errors
     /// When a coordinate is not finite, or the area is 0 or beyond `f32`.
@@ -30,7 +30,7 @@ impl Triangle {
         Ok(triangle)
     }
 
-    /// The corners [m].
+    /// The corners (m).
     #[must_use]
     pub const fn corners(&self) -> [Vec3; 3] {
         [self.a, self.b, self.c]
