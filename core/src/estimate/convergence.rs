@@ -94,3 +94,80 @@ impl Convergence {
         self.relative_mse().map(libm::sqrt)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Rgb;
+    use crate::estimate::{PixelStats, passes};
+    use crate::sequence::{Dimension, Random, Sequence, Sobol};
+
+    /// Estimated and true relMSE of a picture of `pixels` integrals of `f(pixel, point)`.
+    fn errors(
+        mut sequence: impl Sequence,
+        samples: u32,
+        f: impl Fn(f32, [f32; 2]) -> f32,
+        exact: impl Fn(f32) -> f64,
+    ) -> (f64, f64) {
+        let mut pixels = [PixelStats::NEW; 2048];
+        let mut convergence = Convergence::new();
+        for pass in passes(samples) {
+            let mut sums = DifferenceSums::default();
+            for (i, pixel) in pixels.iter_mut().enumerate() {
+                let before = *pixel;
+                for sample in pass.clone() {
+                    sequence.start(i as u32, sample);
+                    let u = sequence.point(Dimension::Film, 0, 1);
+                    pixel.add(Rgb::splat(f(i as f32 / 2048.0, u)));
+                }
+                if before.count() > 0 {
+                    sums.add(before.mean().r, pixel.mean().r, before.count(), pixel.count());
+                }
+            }
+            convergence.record(pass.end, &sums);
+        }
+        let truth = pixels.iter().enumerate().map(|(i, p)| {
+            let r = exact(i as f32 / 2048.0);
+            (f64::from(p.mean().r) - r).powi(2) / (r * r + 0.01)
+        });
+        (convergence.relative_mse().unwrap(), truth.sum::<f64>() / 2048.0)
+    }
+
+    /// A penumbra: a straight edge at a slant, at another place in each pixel.
+    fn edge(p: f32, u: [f32; 2]) -> f32 {
+        if u[0] + 0.3 * u[1] < 0.3 + 0.7 * p { 1.0 } else { 0.0 }
+    }
+
+    fn edge_exact(p: f32) -> f64 {
+        0.15 + 0.7 * f64::from(p)
+    }
+
+    #[test]
+    fn the_estimate_is_the_error_of_independent_samples() {
+        for samples in [16, 64, 100, 256] {
+            let (estimate, truth) = errors(Random::<rand_pcg::Pcg32>::new(3), samples, edge, edge_exact);
+            assert!((estimate / truth - 1.0).abs() < 0.2, "{samples}: {estimate} {truth}");
+        }
+    }
+
+    #[test]
+    fn the_estimate_follows_the_faster_convergence_of_sobol_points() {
+        for samples in [16, 64, 256] {
+            let (estimate, truth) = errors(Sobol::new(3), samples, edge, edge_exact);
+            assert!((0.6..1.6).contains(&(estimate / truth)), "{samples}: {estimate} {truth}");
+        }
+        // A smooth integrand converges as n⁻³; assuming independent halves would say seven times too much.
+        let smooth = |p: f32, u: [f32; 2]| 1.0 + p * u[0] * u[1];
+        for samples in [16, 64, 256] {
+            let (estimate, truth) = errors(Sobol::new(3), samples, smooth, |p| 1.0 + 0.25 * f64::from(p));
+            assert!((0.5..2.0).contains(&(estimate / truth)), "{samples}: {estimate} {truth}");
+        }
+    }
+
+    #[test]
+    fn one_sample_says_nothing() {
+        let mut convergence = Convergence::new();
+        convergence.record(1, &DifferenceSums::default());
+        assert_eq!(convergence.relative_error(), None);
+    }
+}
