@@ -1,0 +1,34 @@
+//! Mitsuba 3 XML: the elements that halflight renders.
+
+mod bsdf;
+mod context;
+mod cube;
+mod document;
+mod element;
+mod emitter;
+mod fit;
+mod integrator;
+mod material;
+mod properties;
+mod scene;
+mod sensor;
+mod shape;
+mod transform;
+mod value;
+
+pub(super) use document::MAX_INCLUDE_DEPTH;
+
+use super::{LoadError, LoadOptions, Loaded};
+use context::Context;
+use document::Document;
+use std::path::Path;
+
+/// Reads a scene and the files that it refers to.
+pub(super) fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, LoadError> {
+    let document = Document::read(path, options)?;
+    let mut context = Context::new(&document, options.lenient)?;
+    let description = scene::read(&mut context, path)?;
+    let mut warnings = context.into_warnings();
+    warnings.extend(document.unused_defines());
+    Ok(Loaded { description, warnings })
+}

@@ -1,0 +1,172 @@
+//! `<scene>`: puts the parts together.
+
+use super::context::Context;
+use super::element::Element;
+use super::material::Materials;
+use super::properties::Properties;
+use super::sensor::Sensor;
+use super::{emitter, integrator, sensor, shape};
+use crate::build::{
+    CameraDescription, Description, FovAxis, Geometry, IntegratorDescription, Object, ProjectionDescription,
+};
+use crate::camera::View;
+use crate::film::{Film, Filter};
+use crate::geom::Aabb;
+use crate::light::{AnyLight, Emitter};
+use crate::load::{LoadError, Problem};
+use crate::num;
+use crate::shape::Shape;
+use glam::Vec3;
+use std::borrow::ToOwned;
+use std::path::Path;
+use std::vec::Vec;
+
+/// What stands in a scene.
+const TAGS: [&str; 9] =
+    ["integrator", "sensor", "shape", "emitter", "bsdf", "default", "include", "alias", "path"];
+
+/// The parts gathered so far.
+#[derive(Debug, Default)]
+struct Parts<'e> {
+    integrator: Option<(&'e Element, IntegratorDescription)>,
+    sensor: Option<Sensor>,
+    environment: Option<&'e Element>,
+    materials: Materials,
+    objects: Vec<Object>,
+    lights: Vec<AnyLight>,
+}
+
+/// The scene of a document.
+pub(super) fn read(context: &mut Context<'_>, path: &Path) -> Result<Description, LoadError> {
+    let root = &context.document.root;
+    let mut parts = Parts::default();
+    // Named materials first, in the order of the file; then the others, as they are met.
+    for element in root.children.iter().filter(|e| e.tag == "bsdf") {
+        let index = parts.materials.index(context, element);
+        context.tolerate(index)?;
+    }
+    for element in root.children.iter().filter(|e| e.tag != "bsdf") {
+        let part = parts.take(context, element);
+        context.tolerate(part)?;
+    }
+    if parts.objects.is_empty() && parts.environment.is_none() {
+        return Err(LoadError::Empty { path: path.to_owned() });
+    }
+    parts.finish(context, root, path)
+}
+
+impl<'e> Parts<'e> {
+    fn take(&mut self, context: &mut Context<'_>, element: &'e Element) -> Result<(), LoadError> {
+        match element.tag.as_str() {
+            "integrator" => self.integrator(context, element),
+            "sensor" => self.sensor(context, element),
+            "shape" => self.shape(context, element),
+            "emitter" => self.light(context, element),
+            tag => Err(element.error(Problem::unknown("element", tag, &TAGS))),
+        }
+    }
+
+    fn integrator(&mut self, context: &mut Context<'_>, element: &'e Element) -> Result<(), LoadError> {
+        if let Some((first, _)) = self.integrator {
+            let what = "there is another integrator".to_owned();
+            return Err(element.error(Problem::Conflict { what, first: first.at.clone() }));
+        }
+        self.integrator = Some((element, integrator::read(context, element)?));
+        Ok(())
+    }
+
+    fn sensor(&mut self, context: &mut Context<'_>, element: &'e Element) -> Result<(), LoadError> {
+        if self.sensor.is_some() {
+            context.warn(element, "only the first sensor is used");
+            return Ok(());
+        }
+        self.sensor = Some(sensor::read(context, element)?);
+        Ok(())
+    }
+
+    fn light(&mut self, context: &mut Context<'_>, element: &'e Element) -> Result<(), LoadError> {
+        let light = emitter::free(context, element)?;
+        if light.is_environment() {
+            if let Some(first) = self.environment {
+                let what = "there is another light around the scene".to_owned();
+                return Err(element.error(Problem::Conflict { what, first: first.at.clone() }));
+            }
+            self.environment = Some(element);
+        }
+        self.lights.push(light);
+        Ok(())
+    }
+
+    fn shape(&mut self, context: &mut Context<'_>, element: &'e Element) -> Result<(), LoadError> {
+        let mut properties = Properties::new(element)?;
+        let geometry = shape::read(context, element, &mut properties)?;
+        let material = match properties.single(&["bsdf", "ref"])? {
+            Some(bsdf) => {
+                let index = self.materials.index(context, bsdf);
+                context.tolerate(index)?
+            }
+            None => None,
+        };
+        let emission = match properties.single(&["emitter"])? {
+            Some(emitter) => {
+                let emission = emitter::surface(context, emitter);
+                context.tolerate(emission)?
+            }
+            None => None,
+        };
+        properties.finish(context)?;
+        let material = material.map_or_else(|| self.materials.default(element), Ok)?;
+        self.objects.push(Object { name: element.title().to_owned(), geometry, material, emission });
+        Ok(())
+    }
+
+    fn finish(
+        self,
+        context: &mut Context<'_>,
+        root: &Element,
+        path: &Path,
+    ) -> Result<Description, LoadError> {
+        let Sensor { camera, film, samples_per_pixel } = match self.sensor {
+            Some(sensor) => sensor,
+            None => {
+                context.warn(root, "there is no sensor; a camera that sees the whole scene is used");
+                default_sensor(&self.objects, root)?
+            }
+        };
+        Ok(Description {
+            name: path.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
+            camera,
+            width: film.width(),
+            height: film.height(),
+            filter: film.filter(),
+            integrator: self.integrator.map(|(_, i)| i).unwrap_or_default(),
+            samples_per_pixel,
+            materials: self.materials.list,
+            objects: self.objects,
+            lights: self.lights,
+        })
+    }
+}
+
+/// A camera in front of the scene and somewhat above it, so far away that a sphere around the scene
+/// fits into the picture.
+fn default_sensor(objects: &[Object], root: &Element) -> Result<Sensor, LoadError> {
+    const FOV: f32 = 40.0;
+    let bounds = objects.iter().fold(Aabb::EMPTY, |b, o| {
+        b.union(match &o.geometry {
+            Geometry::Shape(shape) => shape.bounds(),
+            Geometry::Mesh(mesh) => Aabb::around(&mesh.positions),
+        })
+    });
+    let (centre, radius) =
+        if bounds.is_empty() { (Vec3::ZERO, 1.0) } else { (bounds.centre(), 0.5 * bounds.diagonal()) };
+    let distance = radius / num::sin_cos(0.5 * FOV.to_radians()).0;
+    let origin = centre + Vec3::new(0.4, 0.35, 1.0).normalize() * distance;
+    let view = View::look_at(origin, centre, Vec3::Y).map_err(|e| root.error(e))?;
+    let projection = ProjectionDescription::Perspective { fov: FOV, axis: FovAxis::Smaller };
+    let camera =
+        CameraDescription { view, projection, near: 1e-3 * distance, far: 2.0 * (distance + radius) };
+    let film = Film::new(768, 576, Filter::Gaussian { stddev: 0.5 }).map_err(|e| root.error(e))?;
+    camera.camera(film.width(), film.height()).map_err(|e| root.error(e))?;
+    Ok(Sensor { camera, film, samples_per_pixel: None })
+}

@@ -1,0 +1,53 @@
+//! Reads and writes scenes (std).
+//!
+//! Scenes are Mitsuba 3 XML with PLY and OBJ meshes: the part of it that halflight renders. What is
+//! outside of that part is an error that says where it is and what is supported, or, when asked for,
+//! a warning.
+
+mod error;
+
+mod mesh;
+mod mesh_error;
+mod mitsuba;
+mod obj;
+mod ply;
+mod suggest;
+
+pub use error::{LoadError, Position, Problem, Warning};
+
+pub use mesh_error::MeshError;
+
+use crate::build::Description;
+use std::path::Path;
+use std::string::String;
+use std::vec::Vec;
+
+/// How a scene is read.
+#[derive(Debug, Clone, Default)]
+pub struct LoadOptions {
+    /// Parameters, name and value, that replace the file's `<default>`s.
+    pub defines: Vec<(String, String)>,
+    /// Leaves out what is not supported, with a warning, instead of refusing the scene.
+    pub lenient: bool,
+}
+
+/// A scene that was read.
+#[derive(Debug, Clone)]
+pub struct Loaded {
+    /// The scene.
+    pub description: Description,
+    /// What was read, but not as written.
+    pub warnings: Vec<Warning>,
+}
+
+/// Reads a scene; its format follows from the file's extension.
+///
+/// # Errors
+/// When the file or one that it refers to cannot be read, is malformed, or asks for what is not
+/// supported.
+pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, LoadError> {
+    match path.extension() {
+        Some(extension) if extension.eq_ignore_ascii_case("xml") => mitsuba::load(path, options),
+        _ => Err(LoadError::Format { path: path.into() }),
+    }
+}
