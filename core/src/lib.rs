@@ -101,6 +101,8 @@ pub mod estimate;
 pub mod film;
 pub mod geom;
 pub mod light;
+#[cfg(feature = "load")]
+pub mod load;
 pub mod measure;
 pub mod num;
 mod rgb;

@@ -1,0 +1,3 @@
+//! Where scenes come from (std).
+
+pub mod builtin;
