@@ -41,7 +41,7 @@ pub(super) fn make() -> Result<Description, BuiltinError> {
         Vec3::X * (65.0 * METRE),
         Vec3::Z * (52.5 * METRE),
     )?;
-    author.lamp("lamp", Geometry::Shape(AnyShape::Rectangle(lamp)), [26.0, 21.0, 14.5])?;
+    author.lamp("lamp", Geometry::Shape(AnyShape::Rectangle(lamp)), [62.0, 54.0, 42.0])?;
     let eye = Vec3::new(278.0, 273.0, -800.0) * METRE;
     let fov = 39.3;
     let shot = Shot { size: [640, 640], ..Shot::perspective(eye, eye + Vec3::Z, fov) };
