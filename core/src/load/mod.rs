@@ -4,8 +4,8 @@
 //! outside of that part is an error that says where it is and what is supported, or, when asked for,
 //! a warning.
 
+pub mod builtin;
 mod error;
-
 mod mesh;
 mod mesh_error;
 mod mitsuba;
@@ -14,7 +14,6 @@ mod ply;
 mod suggest;
 
 pub use error::{LoadError, Position, Problem, Warning};
-
 pub use mesh_error::MeshError;
 
 use crate::build::Description;
