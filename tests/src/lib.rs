@@ -1,6 +1,8 @@
 //! The harness of the conformance suite: fixtures, oracles in double precision, and checks that
 //! return what they found instead of panicking, so that their own sensitivity can be tested.
 
+pub mod bsdfs;
+pub mod histogram;
 pub mod lights;
 pub mod oracle;
 pub mod quadrature;

@@ -1,5 +1,6 @@
 //! Conformance, statistics and closed forms, in one binary.
 
+mod bsdfs;
 mod closed_forms;
 mod delta;
 mod lights;

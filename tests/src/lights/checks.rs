@@ -1,12 +1,12 @@
 //! What holds for every light.
 
 use super::{Area, Lying, Specimen, Subject};
+use crate::histogram::{ConeGrid, directions_follow_density};
 use crate::random::{Uniforms, corners};
-use crate::statistics::{Moments, chi_square};
+use crate::statistics::Moments;
 use crate::{Verdict, ensure};
-use halflight::glam::{DVec3, Vec3};
+use halflight::glam::Vec3;
 use halflight::light::{AreaLight, SampledShape};
-use std::f64::consts::TAU;
 
 /// Samples of each estimate: its standard error is a fifth of a percent or less.
 const SAMPLES: u64 = 1 << 20;
@@ -69,7 +69,10 @@ pub fn area_and_direction_sampling_agree(subject: &impl Subject) -> Verdict {
             f64::from(normal.dot(sample.wi).max(0.0) * sample.incident.g) / f64::from(pdf)
         })
     }));
-    let grid = ConeGrid::new(subject);
+    let grid = {
+        let (axis, extent) = subject.cone();
+        ConeGrid::new(axis, extent)
+    };
     let by_direction = Moments::of((0..SAMPLES).map(|_| {
         let [s, t] = random.two();
         let wi = grid.direction(f64::from(s), f64::from(t));
@@ -80,93 +83,25 @@ pub fn area_and_direction_sampling_agree(subject: &impl Subject) -> Verdict {
     by_light.check_same("irradiance by light and by direction", &by_direction, ROUNDING)
 }
 
-/// Cells of the histogram: from the axis outward, and around it.
-const CELLS: [usize; 2] = [16, 32];
-
-/// Points in each cell along each axis for the integral of the density.
-const POINTS: usize = 64;
-
 /// Directions are as frequent as the queried density says.
 ///
 /// # Errors
 /// When the histogram is too unlikely, or the density integrates to something else than the share
 /// of samples that there are.
 pub fn directions_pass_chi_square(subject: &impl Subject) -> Verdict {
-    let mut random = Uniforms::new(14);
-    let grid = ConeGrid::new(subject);
-    let n = SAMPLES as f64;
-    let mut expected = vec![0.0; CELLS[0] * CELLS[1]];
-    let points = POINTS as f64;
-    for (cell, sum) in expected.iter_mut().enumerate() {
-        let (i, j) = ((cell / CELLS[1]) as f64, (cell % CELLS[1]) as f64);
-        for k in 0..POINTS * POINTS {
-            let [a, b] = random.two().map(f64::from);
-            let s = (i + ((k / POINTS) as f64 + a) / points) / CELLS[0] as f64;
-            let t = (j + ((k % POINTS) as f64 + b) / points) / CELLS[1] as f64;
-            *sum += clear_pdf(subject, grid.direction(s, t)).unwrap_or(0.0);
-        }
-        *sum *= n * grid.solid_angle() / (CELLS[0] * CELLS[1] * POINTS * POINTS) as f64;
-    }
-    let mut observed = vec![0; CELLS[0] * CELLS[1]];
-    for _ in 0..SAMPLES {
-        let Some((sample, _)) = subject.draw(random.two()) else { continue };
-        if clear_pdf(subject, sample.wi).is_none() {
-            continue;
-        }
-        let [s, t] = grid.coordinates(sample.wi);
-        ensure!(s < 1.0, "{} is beyond the light's cone", sample.wi);
-        observed[(s * CELLS[0] as f64) as usize * CELLS[1] + (t * CELLS[1] as f64) as usize] += 1;
-    }
-    let drawn = observed.iter().sum::<u64>() as f64;
-    let held = expected.iter().sum::<f64>();
-    let spread = 5.0 * (drawn * (1.0 - drawn / n)).sqrt() + 3e-3 * n;
-    ensure!(
-        (drawn - held).abs() <= spread,
-        "{} of the samples exist, the density holds {}",
-        drawn / n,
-        held / n
-    );
-    chi_square("directions", &observed, &expected, 0.01)
+    let draw = |random: &mut Uniforms| {
+        let (sample, _) = subject.draw(random.two())?;
+        clear_pdf(subject, sample.wi).map(|_| sample.wi)
+    };
+    let (axis, extent) = subject.cone();
+    let pdf = |wi| clear_pdf(subject, wi).unwrap_or(0.0);
+    directions_follow_density(&ConeGrid::new(axis, extent), SAMPLES, draw, pdf)
 }
 
 /// Density of a direction, but not at a round light's rim: there it grows beyond all bounds, and
 /// is as noisy as the last bits of the cosine.
 fn clear_pdf(subject: &impl Subject, wi: Vec3) -> Option<f64> {
     subject.seen(wi).filter(|seen| seen.cos_light.abs() > 0.02).map(|seen| f64::from(seen.pdf))
-}
-
-/// Equal-area coordinates of a cone of directions.
-struct ConeGrid {
-    axes: [DVec3; 3],
-    extent: f64,
-}
-
-impl ConeGrid {
-    fn new(subject: &impl Subject) -> Self {
-        let (axis, extent) = subject.cone();
-        let n = axis.as_dvec3().normalize();
-        let s = n.any_orthonormal_vector();
-        Self { axes: [s, n.cross(s), n], extent }
-    }
-
-    fn solid_angle(&self) -> f64 {
-        TAU * self.extent
-    }
-
-    fn direction(&self, s: f64, t: f64) -> Vec3 {
-        let x = s * self.extent;
-        let across = (x * (2.0 - x)).max(0.0).sqrt();
-        let (sin, cos) = (TAU * t).sin_cos();
-        let [a, b, n] = self.axes;
-        (a * (across * cos) + b * (across * sin) + n * (1.0 - x)).as_vec3()
-    }
-
-    fn coordinates(&self, wi: Vec3) -> [f64; 2] {
-        let [a, b, n] = self.axes.map(|axis| axis.dot(wi.as_dvec3().normalize()));
-        let sin2 = a * a + b * b;
-        let x = if n > 0.0 { sin2 / (1.0 + (1.0 - sin2).max(0.0).sqrt()) } else { 1.0 - n };
-        [x / self.extent, (b.atan2(a) / TAU).rem_euclid(1.0).min(1.0 - 1e-12)]
-    }
 }
 
 /// The back of a one-sided light is dark, whether it is sampled or met; both sides of a two-sided
@@ -178,7 +113,10 @@ pub fn nothing_arrives_from_behind<S: Specimen>(subject: &Area<S>) -> Verdict {
     let two_sided = subject.two_sided;
     let turned = Area { light: relight(subject.light.shape().turned(), two_sided), ..*subject };
     let mut random = Uniforms::new(15);
-    let grid = ConeGrid::new(subject);
+    let grid = {
+        let (axis, extent) = subject.cone();
+        ConeGrid::new(axis, extent)
+    };
     for u in corners().chain((0..50_000).map(|_| random.two())) {
         let wi = grid.direction(f64::from(u[0]), f64::from(u[1]));
         for one in [subject, &turned] {
