@@ -4,7 +4,7 @@ use super::error::check_reflectance;
 use super::{Bsdf, BsdfError, BsdfSample};
 use crate::Rgb;
 use crate::geom::Frame;
-use crate::num::{self, FRAC_1_PI};
+use crate::num::FRAC_1_PI;
 use crate::warp;
 use glam::Vec3;
 
@@ -61,10 +61,10 @@ impl Phong {
         self.exponent
     }
 
-    /// Cosine to the mirror direction.
+    /// `1 − cos α`, α the angle to the mirror direction, from the chord between the two.
     #[inline]
-    fn cos_alpha(wo: Vec3, wi: Vec3) -> f32 {
-        wo.z * wi.z - wo.x * wi.x - wo.y * wi.y
+    fn one_minus_cos_alpha(wo: Vec3, wi: Vec3) -> f32 {
+        0.5 * wi.distance_squared(Vec3::new(-wo.x, -wo.y, wo.z))
     }
 }
 
@@ -74,12 +74,8 @@ impl Bsdf for Phong {
         if wo.z <= 0.0 || wi.z <= 0.0 {
             return Rgb::BLACK;
         }
-        let cos_alpha = Self::cos_alpha(wo, wi).min(1.0);
-        let lobe = if cos_alpha > 0.0 {
-            (self.exponent + 2.0) * (0.5 * FRAC_1_PI) * num::pow(cos_alpha, self.exponent)
-        } else {
-            0.0
-        };
+        let power = warp::power_of_cosine(Self::one_minus_cos_alpha(wo, wi), self.exponent);
+        let lobe = (self.exponent + 2.0) * (0.5 * FRAC_1_PI) * power;
         self.diffuse * FRAC_1_PI + self.specular * lobe
     }
 
@@ -102,7 +98,7 @@ impl Bsdf for Phong {
         if wo.z <= 0.0 || wi.z <= 0.0 {
             return 0.0;
         }
-        let lobe = warp::power_cosine_pdf(Self::cos_alpha(wo, wi).min(1.0), self.exponent);
+        let lobe = warp::power_cosine_pdf(Self::one_minus_cos_alpha(wo, wi), self.exponent);
         self.specular_pmf * lobe + (1.0 - self.specular_pmf) * warp::cosine_hemisphere_pdf(wi.z)
     }
 

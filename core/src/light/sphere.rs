@@ -39,17 +39,17 @@ impl Cone {
 
     /// Outward normal of the sphere where the local direction `d` first meets it.
     ///
+    /// * `reach` – distance to there, in radii
+    ///
     /// Source: Pharr, Jakob, Humphreys 2023, section 6.2.4: with `β` the angle at the centre,
-    /// `cos β = sin² θ / s + cos θ √(1 − sin² θ / s²)`, s = sin θ_max.
+    /// `cos β = sin² θ / s + cos θ √(1 − sin² θ / s²)`, s = sin θ_max. Differs: `sin β` is
+    /// `sin θ reach` by the law of sines, which keeps its digits for a sphere that is almost touched.
     #[inline]
-    fn normal_at(&self, d: Vec3) -> Vec3 {
+    fn normal_at(&self, d: Vec3, reach: f32) -> Vec3 {
         let sin2 = d.x * d.x + d.y * d.y;
         let sin_max = num::sqrt(self.sin2_max);
         let cos_beta = sin2 / sin_max + d.z * num::sqrt(1.0 - sin2 / self.sin2_max);
-        let sin_beta = num::sqrt((1.0 - cos_beta) * (1.0 + cos_beta));
-        // Azimuth of d; a zero-length d.xy means β = 0 and any azimuth will do.
-        let across = num::sqrt(sin2).max(f32::MIN_POSITIVE);
-        let local = Vec3::new(d.x / across * sin_beta, d.y / across * sin_beta, -cos_beta);
+        let local = Vec3::new(d.x * reach, d.y * reach, -cos_beta);
         Frame::from_normal(self.axis).to_world(local)
     }
 }
@@ -72,11 +72,11 @@ impl SampledShape for Sphere {
         match (method, Cone::new(self, from.point)) {
             (SurfaceDensity::SolidAngle, Some(cone)) => {
                 let local = warp::cone(u, cone.one_minus_cos_max());
-                let n = unit(cone.normal_at(local))?;
-                let wi = Frame::from_normal(cone.axis).to_world(local);
-                let at = self.point(n);
                 // Not from the difference of the points, which cancels for a distant sphere.
                 let distance = cone.near_distance(local, self.radius());
+                let n = unit(cone.normal_at(local, distance / self.radius()))?;
+                let wi = Frame::from_normal(cone.axis).to_world(local);
+                let at = self.point(n);
                 Some(SurfaceSample { at, wi, distance })
             }
             _ => SurfaceSample::toward(from.point, self.sample_area(u)),

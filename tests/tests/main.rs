@@ -1,0 +1,17 @@
+//! Conformance, statistics and closed forms, in one binary.
+
+mod bsdfs;
+mod closed_forms;
+mod delta;
+mod lights;
+
+/// Every kind of light has its line in the conformance suite.
+#[test]
+fn no_light_goes_untested() {
+    let suite = concat!(include_str!("lights.rs"), include_str!("delta.rs"));
+    for name in halflight::light::AnyLight::NAMES {
+        let stamped =
+            suite.contains(&format!("conformance!({name}_")) || suite.contains(&format!("mod {name}_"));
+        assert!(stamped, "no conformance! line for {name}");
+    }
+}
