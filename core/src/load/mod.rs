@@ -5,6 +5,7 @@
 //! a warning.
 
 mod error;
+mod export;
 
 mod mesh;
 mod mesh_error;
@@ -15,6 +16,7 @@ mod suggest;
 
 pub use error::{LoadError, Position, Problem, Warning};
 
+pub use export::{ExportError, export_mitsuba};
 pub use mesh_error::MeshError;
 
 use crate::build::Description;
