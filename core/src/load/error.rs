@@ -252,6 +252,9 @@ impl fmt::Display for Problem {
     }
 }
 
+/// The most names that a message lists: a scene may have thousands of ids.
+const MOST_NAMES: usize = 24;
+
 /// "unknown bsdf; did you mean "diffuse"? supported: diffuse, phong".
 fn unknown(f: &mut fmt::Formatter<'_>, what: &str, name: &str, supported: &[String]) -> fmt::Result {
     write!(f, "unknown {what} \"{name}\"")?;
@@ -263,7 +266,9 @@ fn unknown(f: &mut fmt::Formatter<'_>, what: &str, name: &str, supported: &[Stri
     } else {
         write!(f, ";")?;
     }
-    write!(f, " supported: {}", supported.join(", "))
+    let shown = supported.len().min(MOST_NAMES);
+    write!(f, " supported: {}", supported[..shown].join(", "))?;
+    if shown < supported.len() { write!(f, " and {} more", supported.len() - shown) } else { Ok(()) }
 }
 
 /// Something in a scene file that was read, but not as written.

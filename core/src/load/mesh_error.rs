@@ -20,7 +20,7 @@ pub enum MeshError {
         element: String,
         /// How many it promises.
         count: u64,
-        /// Size of the file [bytes].
+        /// Size of the file (bytes).
         bytes: u64,
     },
     /// Something that a mesh needs is not there.

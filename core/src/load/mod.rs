@@ -6,6 +6,8 @@
 
 pub mod builtin;
 mod error;
+mod export;
+
 mod mesh;
 mod mesh_error;
 mod mitsuba;
@@ -14,6 +16,8 @@ mod ply;
 mod suggest;
 
 pub use error::{LoadError, Position, Problem, Warning};
+
+pub use export::{ExportError, export_mitsuba};
 pub use mesh_error::MeshError;
 
 use crate::build::Description;

@@ -5,7 +5,7 @@ use std::vec::Vec;
 /// The candidate nearest to `name`, when it is near enough to be what was meant: up to half of its
 /// letters may differ, but no more than three.
 pub(super) fn nearest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    let allowed = (name.chars().count() / 2).clamp(1, 3);
+    let allowed = name.chars().count().div_ceil(2).min(3);
     candidates
         .map(|c| (distance(&name.to_lowercase(), &c.to_lowercase()), c))
         .min_by_key(|&(d, _)| d)

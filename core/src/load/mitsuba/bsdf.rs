@@ -23,9 +23,9 @@ pub(super) fn read(context: &mut Context<'_>, element: &Element) -> Result<TwoSi
     }
 }
 
-/// What a surface without a `<bsdf>` has.
-pub(super) fn default() -> Result<TwoSided<AnyBsdf>, crate::bsdf::BsdfError> {
-    Lambert::new(Rgb::splat(0.5)).map(AnyBsdf::Lambert).map(TwoSided::front_only)
+/// What a surface without a `<bsdf>` has: grey, or black where it emits, as in Mitsuba 3.
+pub(super) fn default(emits: bool) -> Result<TwoSided<AnyBsdf>, crate::bsdf::BsdfError> {
+    Lambert::new(Rgb::splat(if emits { 0.0 } else { 0.5 })).map(AnyBsdf::Lambert).map(TwoSided::front_only)
 }
 
 fn two_sided(context: &mut Context<'_>, element: &Element) -> Result<TwoSided<AnyBsdf>, LoadError> {

@@ -15,8 +15,10 @@ use std::{format, fs};
 pub(in crate::load) const MAX_INCLUDE_DEPTH: usize = 32;
 /// How deeply elements may be nested: a scene needs six levels, and recursion needs a bound.
 const MAX_NESTING: usize = 64;
-/// How many elements a scene may have: files that include others several times multiply.
+/// How many elements a scene may have: with its meshes in files of their own, none comes near.
 const MAX_ELEMENTS: usize = 1 << 20;
+/// How many files may be included: files that include others several times multiply.
+const MAX_INCLUDES: usize = 1 << 12;
 
 /// A value that can be put into attributes as `$name`.
 #[derive(Debug)]
@@ -48,6 +50,7 @@ impl Document {
             search: Vec::new(),
             open: Vec::new(),
             elements: 0,
+            includes: 0,
         };
         let text =
             fs::read(path).map_err(|source| LoadError::Unreadable { path: path.to_owned(), source })?;
@@ -93,6 +96,7 @@ struct Reader {
     /// Files being read, outermost first.
     open: Vec<PathBuf>,
     elements: usize,
+    includes: usize,
 }
 
 /// A file's name and where its lines start.
@@ -253,6 +257,10 @@ impl Reader {
     /// Puts another file's root, or the children of a `<scene>`, into the parent.
     fn include(&mut self, element: &Element, parent: &mut Element) -> Result<(), LoadError> {
         element.only_attributes(&["filename"])?;
+        self.includes += 1;
+        if self.includes > MAX_INCLUDES {
+            return Err(element.error(Problem::TooLarge { what: "included files", limit: MAX_INCLUDES }));
+        }
         let path = find(element, element.required("filename")?, &self.search);
         if self.open.len() > MAX_INCLUDE_DEPTH {
             return Err(element.error(Problem::Include { path, cycle: false }));

@@ -47,8 +47,8 @@ impl Materials {
     }
 
     /// The index of what a surface without a `<bsdf>` has.
-    pub(super) fn default(&mut self, element: &Element) -> Result<usize, LoadError> {
-        let bsdf = bsdf::default().map_err(|e| element.error(e))?;
+    pub(super) fn default(&mut self, element: &Element, emits: bool) -> Result<usize, LoadError> {
+        let bsdf = bsdf::default(emits).map_err(|e| element.error(e))?;
         Ok(self.add(Material { name: String::new(), bsdf }))
     }
 

@@ -115,7 +115,7 @@ impl<'e> Parts<'e> {
             None => None,
         };
         properties.finish(context)?;
-        let material = material.map_or_else(|| self.materials.default(element), Ok)?;
+        let material = material.map_or_else(|| self.materials.default(element, emission.is_some()), Ok)?;
         self.objects.push(Object { name: element.title().to_owned(), geometry, material, emission });
         Ok(())
     }

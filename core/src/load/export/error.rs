@@ -1,0 +1,57 @@
+//! Why a scene was not written.
+
+use core::fmt;
+use std::io;
+use std::path::PathBuf;
+
+/// Why a scene was not written.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum ExportError {
+    /// A file cannot be written.
+    Unwritable {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// The path does not name a file.
+    Path {
+        /// The path.
+        path: PathBuf,
+    },
+    /// An object refers to a material that does not exist.
+    Material {
+        /// Index of the object.
+        object: usize,
+    },
+    /// A light in the list of lights has a surface; only objects may.
+    SurfaceLight {
+        /// Its kind.
+        kind: &'static str,
+    },
+}
+
+impl fmt::Display for ExportError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unwritable { path, source } => write!(f, "{}: {source}", path.display()),
+            Self::Path { path } => write!(f, "{}: not the name of a file", path.display()),
+            Self::Material { object } => {
+                write!(f, "object {object} refers to a material that does not exist")
+            }
+            Self::SurfaceLight { kind } => {
+                write!(f, "a {kind} is among the lights without a surface; make it an object that emits")
+            }
+        }
+    }
+}
+
+impl core::error::Error for ExportError {
+    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
+        match self {
+            Self::Unwritable { source, .. } => Some(source),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! Writes a scene as Mitsuba 3 XML with binary PLY meshes.
+//!
+//! What is written loads in Mitsuba, and loads here to the same scene, except for what Mitsuba does
+//! not have: surfaces that emit from both sides, and the Phong model. Those are written in the
+//! spelling that this crate reads, with a remark.
+
+mod error;
+mod file;
+mod names;
+mod parts;
+mod ply;
+mod xml;
+
+pub use error::ExportError;
+
+use crate::build::{Description, Geometry, Mesh, Object};
+use crate::shape::AnyShape;
+use file::write_whole;
+use names::{Names, file_name};
+use std::borrow::Cow;
+use std::format;
+use std::io::Write;
+use std::path::Path;
+use std::string::String;
+use std::vec::Vec;
+use xml::Xml;
+
+/// Writes a scene to `path`, and its meshes beside it as `<stem>-<object>.ply`. A file is written
+/// under another name and renamed when it is complete.
+///
+/// # Errors
+/// When a file cannot be written, an object has no material, or a light has a surface without being
+/// an object.
+pub fn export_mitsuba(description: &Description, path: &Path) -> Result<(), ExportError> {
+    let stem = path.file_stem().ok_or_else(|| ExportError::Path { path: path.into() })?;
+    let stem = file_name(&stem.to_string_lossy());
+    let mut ids = Names::default();
+    let mut files = Names::default();
+    let mut xml = Xml::new();
+    parts::integrator(&mut xml, description);
+    parts::sensor(&mut xml, description);
+    let materials = materials(&mut xml, &mut ids, description);
+    for (index, object) in description.objects.iter().enumerate() {
+        let material = materials.get(object.material).ok_or(ExportError::Material { object: index })?;
+        let mesh = as_mesh(&object.geometry);
+        let file =
+            mesh.as_ref().map(|_| files.unique(&format!("{stem}-{}", file_name(&object.name))) + ".ply");
+        if let Some((mesh, file)) = mesh.as_deref().zip(file.as_deref()) {
+            write_whole(&path.with_file_name(file), |out| ply::write(out, mesh))?;
+        }
+        shape(&mut xml, &mut ids, object, file.as_deref(), material);
+    }
+    for light in &description.lights {
+        parts::light(&mut xml, light)?;
+    }
+    let text = xml.finish();
+    write_whole(path, |out| out.write_all(text.as_bytes()))
+}
+
+/// How shapes refer to each material: by the id under which it is written, or by repeating it.
+fn materials(xml: &mut Xml, ids: &mut Names, description: &Description) -> Vec<String> {
+    description
+        .materials
+        .iter()
+        .map(|material| {
+            let mut inner = Xml::nested();
+            if material.name.is_empty() {
+                parts::bsdf(&mut inner, &material.bsdf, None);
+                return inner.into_body();
+            }
+            let id = ids.unique(&names::id(&material.name));
+            parts::bsdf(xml, &material.bsdf, Some(&id));
+            inner.empty("ref", &[("id", &id)]);
+            inner.into_body()
+        })
+        .collect()
+}
+
+/// The triangles of what is written as a mesh file.
+fn as_mesh(geometry: &Geometry) -> Option<Cow<'_, Mesh>> {
+    match geometry {
+        Geometry::Mesh(mesh) => Some(Cow::Borrowed(mesh)),
+        Geometry::Shape(AnyShape::Triangle(triangle)) => Some(Cow::Owned(Mesh {
+            positions: triangle.corners().to_vec(),
+            normals: Vec::new(),
+            triangles: [[0, 1, 2]].to_vec(),
+        })),
+        Geometry::Shape(_) => None,
+    }
+}
+
+/// Writes an object. Its id is left out when it is only the name of its kind.
+fn shape(xml: &mut Xml, ids: &mut Names, object: &Object, file: Option<&str>, material: &str) {
+    let kind = parts::shape_kind(&object.geometry);
+    let named = !object.name.is_empty() && object.name != kind;
+    let id = named.then(|| ids.unique(&names::id(&object.name)));
+    xml.open_plugin("shape", kind, id.as_deref());
+    match (file, &object.geometry) {
+        (Some(file), geometry) => {
+            xml.property("string", "filename", file);
+            let flat = !matches!(geometry, Geometry::Mesh(mesh) if !mesh.normals.is_empty());
+            if flat {
+                xml.property("boolean", "face_normals", "true");
+            }
+        }
+        (None, Geometry::Shape(shape)) => parts::analytic(xml, shape),
+        (None, Geometry::Mesh(_)) => {}
+    }
+    xml.raw(material);
+    if let Some(emission) = &object.emission {
+        parts::emission(xml, emission);
+    }
+    xml.close("shape");
+}
