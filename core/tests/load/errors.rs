@@ -96,6 +96,10 @@ fn other_values_that_cannot_be_read_are_refused() {
         ("<boolean name=\"flip_normals\" value=\"yes\"/>", "true or false"),
         ("<transform name=\"to_world\"><matrix value=\"1 2 3\"/></transform>", "16 or 9"),
         ("<transform name=\"to_world\"><rotate angle=\"5\"/></transform>", "the axis"),
+        (
+            "<transform name=\"to_world\"><rotate x=\"1\" y=\"1\" angle=\"5\"/></transform>",
+            "axis of length 1",
+        ),
         ("<transform name=\"to_world\"><rotate x=\"1\"/></transform>", "\"angle\" is missing"),
         ("<transform name=\"to_world\"><scale value=\"1 nan 1\"/></transform>", "one finite number or three"),
         (

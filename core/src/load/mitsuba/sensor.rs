@@ -42,7 +42,10 @@ pub(super) fn read(context: &mut Context<'_>, element: &Element) -> Result<Senso
         axes.check_rigid(at)?;
         perspective(element, &mut properties)?
     } else {
-        (near, far) = (near * axes.lengths.z, far * axes.lengths.z);
+        // As Mitsuba: a scale moves the near end, but leaves the length between the ends.
+        let length = far - near;
+        near *= axes.lengths.z;
+        far = near + length;
         axes.orthographic(at)?
     };
     let film = match properties.single(&["film"])? {
