@@ -33,6 +33,11 @@ fn unknown_elements_plugins_properties_and_attributes_are_refused() {
         ("<sensor type=\"perspective\"><film type=\"ldrfilm\"/></sensor>", "did you mean \"hdrfilm\"?"),
         ("<sensor type=\"perspective\"><sampler type=\"halton\"/></sensor>", "independent, stratified"),
         (
+            "<sensor type=\"perspective\"><sampler type=\"independent\"><integer name=\"samples\" value=\"1\"/>\
+             </sampler></sensor>",
+            "supported: sample_count, seed, jitter",
+        ),
+        (
             "<sensor type=\"perspective\"><film type=\"hdrfilm\"><rfilter type=\"mitchell\"/></film></sensor>",
             "supported: box, tent, gaussian",
         ),
