@@ -33,6 +33,11 @@ fn unknown_elements_plugins_properties_and_attributes_are_refused() {
         ("<sensor type=\"perspective\"><film type=\"ldrfilm\"/></sensor>", "did you mean \"hdrfilm\"?"),
         ("<sensor type=\"perspective\"><sampler type=\"halton\"/></sensor>", "independent, stratified"),
         (
+            "<sensor type=\"perspective\"><sampler type=\"independent\"><integer name=\"samples\" value=\"1\"/>\
+             </sampler></sensor>",
+            "supported: sample_count, seed, jitter",
+        ),
+        (
             "<sensor type=\"perspective\"><film type=\"hdrfilm\"><rfilter type=\"mitchell\"/></film></sensor>",
             "supported: box, tent, gaussian",
         ),
@@ -96,6 +101,10 @@ fn other_values_that_cannot_be_read_are_refused() {
         ("<boolean name=\"flip_normals\" value=\"yes\"/>", "true or false"),
         ("<transform name=\"to_world\"><matrix value=\"1 2 3\"/></transform>", "16 or 9"),
         ("<transform name=\"to_world\"><rotate angle=\"5\"/></transform>", "the axis"),
+        (
+            "<transform name=\"to_world\"><rotate x=\"1\" y=\"1\" angle=\"5\"/></transform>",
+            "axis of length 1",
+        ),
         ("<transform name=\"to_world\"><rotate x=\"1\"/></transform>", "\"angle\" is missing"),
         ("<transform name=\"to_world\"><scale value=\"1 nan 1\"/></transform>", "one finite number or three"),
         (

@@ -2,6 +2,7 @@
 
 use crate::folder;
 use halflight::build::{Description, Geometry, Mesh, Object};
+use halflight::film::Filter;
 use halflight::glam::Vec3;
 use halflight::load::{ExportError, LoadOptions, export_mitsuba, load};
 use halflight::shape::{AnyShape, Triangle};
@@ -19,7 +20,7 @@ const EVERYTHING: &str = "\
 <bsdf type=\"twosided\" id=\"a &amp; &quot;b&quot; &lt;c&gt;\"><bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\".1 .2 .3\"/></bsdf>\
 <bsdf type=\"phong\"/></bsdf>\
 <bsdf type=\"roughconductor\" id=\"metal\"><string name=\"distribution\" value=\"ggx\"/></bsdf>\
-<shape type=\"rectangle\" id=\"floor\"><ref id=\"metal\"/><transform name=\"to_world\"><rotate x=\"1\" y=\".3\" angle=\"-77\"/>\
+<shape type=\"rectangle\" id=\"floor\"><ref id=\"metal\"/><transform name=\"to_world\"><rotate x=\".8\" y=\".6\" angle=\"-77\"/>\
 <scale value=\"12.1\"/><translate x=\".3\"/></transform></shape>\
 <shape type=\"rectangle\"><boolean name=\"flip_normals\" value=\"true\"/><bsdf type=\"twosided\"><bsdf type=\"diffuse\"/></bsdf></shape>\
 <shape type=\"disk\" id=\"lamp\"><emitter type=\"area\"><rgb name=\"radiance\" value=\"1.1 2.2 1e-7\"/></emitter>\
@@ -114,6 +115,22 @@ fn a_camera_without_clipping_is_written_with_wide_clipping() {
     export_mitsuba(&description, &path).unwrap();
     let camera = read(&path).camera;
     assert_eq!((camera.near, camera.far), (1e-6, 1e30));
+}
+
+#[test]
+fn the_pixel_as_filter_is_written_in_mitsubas_words() {
+    let mut description = everything("filter");
+    let path = folder("filter-out").join("out.xml");
+    for (filter, text) in [
+        (Filter::PIXEL, "<rfilter type=\"box\"/>"),
+        (Filter::Box { radius: 1.5 }, "<float name=\"radius\" value=\"1.5\"/>"),
+        (Filter::Gaussian { stddev: 0.7 }, "<float name=\"stddev\" value=\"0.7\"/>"),
+    ] {
+        description.filter = filter;
+        export_mitsuba(&description, &path).unwrap();
+        assert!(fs::read_to_string(&path).unwrap().contains(text));
+        assert_eq!(read(&path).filter, filter);
+    }
 }
 
 #[test]

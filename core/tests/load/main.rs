@@ -12,9 +12,15 @@ use halflight::load::{LoadError, LoadOptions, Loaded, load};
 use std::fs;
 use std::path::PathBuf;
 
+/// Where a test has its files: tests run at the same time.
+fn place(name: &str) -> PathBuf {
+    let test = std::thread::current().name().unwrap_or("main").replace(':', "-");
+    PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("load").join(test).join(name)
+}
+
 /// An empty folder for one test.
 pub(crate) fn folder(name: &str) -> PathBuf {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let folder = place(name);
     let _ = fs::remove_dir_all(&folder);
     fs::create_dir_all(&folder).expect("the folder for tests can be made");
     folder
@@ -59,6 +65,5 @@ pub(crate) fn refusal(name: &str, body: &str) -> String {
 
 /// An error's text, without the folder.
 pub(crate) fn message(name: &str, error: &LoadError) -> String {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
-    error.to_string().replace(&format!("{}/", folder.display()), "")
+    error.to_string().replace(&format!("{}/", place(name).display()), "")
 }

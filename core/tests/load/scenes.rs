@@ -169,8 +169,9 @@ fn an_orthographic_camera_is_mitsubas() {
                 <transform name=\"to_world\"><scale value=\"3\"/></transform>\
                 <film type=\"hdrfilm\"><rfilter type=\"tent\"/></film></sensor>";
     let description = scene("orthographic", body);
-    let (ray, _) = description.camera.camera(200, 100).unwrap().ray(-1.0, 1.0);
+    let (ray, reach) = description.camera.camera(200, 100).unwrap().ray(-1.0, 1.0);
     assert!(near(ray.origin, Vec3::new(3.0, 1.5, 0.03)) && ray.direction == Vec3::Z, "{ray:?}");
+    assert!((reach - 9999.99).abs() < 1e-2, "Mitsuba does not scale the reach: {reach}");
     assert_eq!(description.filter, Filter::Tent { radius: 1.0 });
 }
 

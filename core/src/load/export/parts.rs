@@ -3,7 +3,9 @@
 use super::ExportError;
 use super::xml::Xml;
 use crate::bsdf::{AnyBsdf, TwoSided};
-use crate::build::{CameraDescription, Description, Emission, FovAxis, Geometry, ProjectionDescription};
+use crate::build::{
+    CameraDescription, Description, Emission, FovAxis, Geometry, IntegratorDescription, ProjectionDescription,
+};
 use crate::camera::View;
 use crate::film::Filter;
 use crate::geom::Frame;
@@ -20,6 +22,9 @@ const FARTHEST: f32 = 1e30;
 
 pub(super) fn integrator(xml: &mut Xml, description: &Description) {
     let samples = description.integrator;
+    if samples == IntegratorDescription::default() {
+        return xml.empty("integrator", &[("type", "direct")]);
+    }
     xml.open_plugin("integrator", "direct", None);
     for (name, count) in [("emitter_samples", samples.light_samples), ("bsdf_samples", samples.bsdf_samples)]
     {
@@ -90,9 +95,16 @@ fn film(xml: &mut Xml, description: &Description) {
         Filter::Tent { radius } => ("tent", "radius", radius),
         Filter::Gaussian { stddev } => ("gaussian", "stddev", stddev),
     };
-    xml.open_plugin("rfilter", kind, None);
-    xml.float(name, extent);
-    xml.close("rfilter");
+    if description.filter == Filter::PIXEL {
+        xml.empty("rfilter", &[("type", kind)]);
+    } else {
+        if kind == "box" {
+            xml.remark("Mitsuba's box has no other radius than 0.5");
+        }
+        xml.open_plugin("rfilter", kind, None);
+        xml.float(name, extent);
+        xml.close("rfilter");
+    }
     xml.close("film");
 }
 

@@ -42,15 +42,18 @@ pub(super) fn read(context: &mut Context<'_>, element: &Element) -> Result<Senso
         axes.check_rigid(at)?;
         perspective(element, &mut properties)?
     } else {
-        (near, far) = (near * axes.lengths.z, far * axes.lengths.z);
+        // As Mitsuba: a scale moves the near end, but leaves the length between the ends.
+        let length = far - near;
+        near *= axes.lengths.z;
+        far = near + length;
         axes.orthographic(at)?
     };
     let film = match properties.single(&["film"])? {
-        Some(film) => context_film(context, film)?,
+        Some(film) => read_film(context, film)?,
         None => default_film().map_err(|e| element.error(e))?,
     };
     let samples_per_pixel = match properties.single(&["sampler"])? {
-        Some(sampler) => read_sampler(sampler)?,
+        Some(sampler) => read_sampler(context, sampler)?,
         None => None,
     };
     properties.finish(context)?;
@@ -148,7 +151,7 @@ fn default_film() -> Result<Film, crate::film::FilmError> {
     Film::new(768, 576, Filter::Gaussian { stddev: 0.5 })
 }
 
-fn context_film(context: &mut Context<'_>, element: &Element) -> Result<Film, LoadError> {
+fn read_film(context: &mut Context<'_>, element: &Element) -> Result<Film, LoadError> {
     element.plugin("film", &["hdrfilm"])?;
     let mut properties = Properties::new(element)?;
     let width = properties.count("width")?.unwrap_or(768);
@@ -181,10 +184,13 @@ fn read_filter(context: &mut Context<'_>, element: &Element) -> Result<Filter, L
     Ok(filter)
 }
 
-fn read_sampler(element: &Element) -> Result<Option<u32>, LoadError> {
+fn read_sampler(context: &mut Context<'_>, element: &Element) -> Result<Option<u32>, LoadError> {
     element.plugin("sampler", &SAMPLERS)?;
     let mut properties = Properties::new(element)?;
-    match properties.count("sample_count")? {
+    let count = properties.count("sample_count")?;
+    properties.ignore(&["seed", "jitter"]);
+    properties.finish(context)?;
+    match count {
         Some(0) => Err(element.error(Problem::Missing { what: "a sample_count above 0".to_owned() })),
         count => Ok(count),
     }

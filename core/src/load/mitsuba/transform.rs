@@ -6,6 +6,9 @@ use crate::load::{LoadError, Problem};
 use glam::{DMat4, DVec3, DVec4};
 use std::borrow::ToOwned;
 
+/// How far the length of an axis may be from 1: an axis written with few digits.
+const UNIT_LENGTH: f64 = 1e-3;
+
 const STEPS: [&str; 5] = ["translate", "rotate", "scale", "lookat", "matrix"];
 
 /// The product of all steps; each later one acts on the result of those before.
@@ -52,12 +55,18 @@ fn scale(element: &Element) -> Result<DMat4, LoadError> {
     }
 }
 
+/// Mitsuba 3 takes the axis as it is, and shears when its length is not 1: what was meant and what it
+/// does are then two things.
 fn rotate(element: &Element) -> Result<DMat4, LoadError> {
     let angle = number(element, "angle")?.to_radians();
-    let axis = coordinates(element, Some(0.0))?
-        .try_normalize()
-        .ok_or_else(|| element.error(Problem::Missing { what: "the axis (x, y, z or value)".to_owned() }))?;
-    Ok(DMat4::from_axis_angle(axis, angle))
+    let axis = coordinates(element, Some(0.0))?;
+    match axis.try_normalize() {
+        None => Err(element.error(Problem::Missing { what: "the axis (x, y, z or value)".to_owned() })),
+        Some(_) if (axis.length() - 1.0).abs() > UNIT_LENGTH => Err(element.error(Problem::Transform {
+            must: "turn around an axis of length 1, because Mitsuba does not normalise it",
+        })),
+        Some(axis) => Ok(DMat4::from_axis_angle(axis, angle)),
+    }
 }
 
 fn look_at(element: &Element) -> Result<DMat4, LoadError> {
