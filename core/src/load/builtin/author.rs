@@ -9,7 +9,7 @@ use crate::build::{
 use crate::camera::{CameraError, View};
 use crate::film::Filter;
 use crate::light::{AnyLight, LightError};
-use crate::shape::{AnyShape, ShapeError};
+use crate::shape::ShapeError;
 use core::fmt;
 use glam::Vec3;
 use std::string::String;
@@ -133,12 +133,6 @@ impl Author {
     /// Triangles.
     pub(super) fn mesh(&mut self, name: &str, mesh: Mesh, material: usize) {
         let geometry = Geometry::Mesh(mesh);
-        self.objects.push(Object { name: name.into(), geometry, material, emission: None });
-    }
-
-    /// An analytic shape.
-    pub(super) fn shape(&mut self, name: &str, shape: AnyShape, material: usize) {
-        let geometry = Geometry::Shape(shape);
         self.objects.push(Object { name: name.into(), geometry, material, emission: None });
     }
 

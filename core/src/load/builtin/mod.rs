@@ -2,7 +2,9 @@
 
 mod author;
 mod colours;
+mod contact;
 mod cornell;
+mod lanterns;
 mod mesh;
 mod penumbra;
 mod plates;
@@ -23,7 +25,7 @@ pub struct Builtin {
 }
 
 /// All built-in scenes; the first is the one that is rendered when none is asked for.
-pub const BUILTIN: [Builtin; 6] = [
+pub const BUILTIN: [Builtin; 8] = [
     Builtin {
         name: "still-life",
         about: "things on a table under one rectangle of light: shadows sharp at the contact, wide away from it",
@@ -43,6 +45,16 @@ pub const BUILTIN: [Builtin; 6] = [
         name: "sky",
         about: "a small town of clay under an even sky: no lamp, only how much of the sky each point sees",
         make: sky::make,
+    },
+    Builtin {
+        name: "lanterns",
+        about: "a party under strings of lanterns: many small lights, of which each point needs few",
+        make: lanterns::make,
+    },
+    Builtin {
+        name: "contact",
+        about: "a tube, a disk, a ball and a rectangle that all but touch what they light: 1/d² at its worst",
+        make: contact::make,
     },
     Builtin {
         name: "plates",

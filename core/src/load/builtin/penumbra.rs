@@ -59,12 +59,13 @@ fn niches() -> Mesh {
     let mut block = |centre: Vec3, size: Vec3| {
         append(&mut mesh, &Pose::at(centre.x, centre.y, centre.z).apply(&cuboid(size * 0.5)));
     };
-    block(Vec3::new(0.0, 0.5 * HEIGHT, BACK - 0.05), Vec3::new(wide, HEIGHT, 0.1));
-    block(Vec3::new(0.0, -0.05, middle), Vec3::new(wide, 0.1, depth));
-    block(Vec3::new(0.0, HEIGHT + 0.05, middle), Vec3::new(wide, 0.1, depth));
+    // Each reaches a little beyond the next, so that no two faces coincide.
+    block(Vec3::new(0.0, 0.5 * HEIGHT, BACK - 0.05), Vec3::new(wide + 0.2, HEIGHT + 0.4, 0.1));
+    block(Vec3::new(0.0, -0.05, middle), Vec3::new(wide + 0.1, 0.1, depth + 0.05));
+    block(Vec3::new(0.0, HEIGHT + 0.05, middle), Vec3::new(wide + 0.1, 0.1, depth + 0.05));
     for i in 0..5 {
         let x = (i as f32 - 2.0) * pitch;
-        block(Vec3::new(x, 0.5 * HEIGHT, middle), Vec3::new(WALL, HEIGHT, depth));
+        block(Vec3::new(x, 0.5 * HEIGHT, middle), Vec3::new(WALL, HEIGHT + 0.05, depth + 0.02));
     }
     mesh
 }

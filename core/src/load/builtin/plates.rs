@@ -47,7 +47,7 @@ pub(super) fn make() -> Result<Description, BuiltinError> {
         let radiance = tint.map(|c| c * 1.0 / (radius * radius));
         author.lamp(&format!("lamp-{}", i + 1), Geometry::Shape(AnyShape::Sphere(bulb)), radiance)?;
     }
-    author.scene("plates", Shot::perspective(EYE, Vec3::new(0.0, 1.32, 0.0), 47.0))
+    author.scene("plates", Shot::perspective(EYE, Vec3::new(0.0, 1.42, 0.0), 47.0))
 }
 
 /// By how much a plate leans toward the viewer so that it mirrors the lamps into the eye [degrees].
