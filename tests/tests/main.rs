@@ -4,6 +4,7 @@ mod bsdfs;
 mod bvh;
 mod closed_forms;
 mod delta;
+mod estimators;
 mod lights;
 mod shapes;
 
