@@ -7,6 +7,8 @@ pub mod lights;
 pub mod oracle;
 pub mod quadrature;
 pub mod random;
+pub mod scenes;
+pub mod shapes;
 pub mod statistics;
 
 use std::fmt;

@@ -1,9 +1,12 @@
 //! Conformance, statistics and closed forms, in one binary.
 
 mod bsdfs;
+mod bvh;
 mod closed_forms;
 mod delta;
+mod estimators;
 mod lights;
+mod shapes;
 
 /// Every kind of light has its line in the conformance suite.
 #[test]

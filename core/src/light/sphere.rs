@@ -18,13 +18,15 @@ struct Cone {
 }
 
 impl Cone {
-    /// `None` from inside or from the surface.
+    /// `None` from inside, and from the surface as far as rounding places its points: one of the
+    /// inner wall must not take itself for an outer one.
     #[inline]
     fn new(sphere: &Sphere, from: Vec3) -> Option<Self> {
         let v = sphere.centre() - from;
         let axis = unit(v)?;
         let distance = v.dot(axis);
-        if distance <= sphere.radius() {
+        let rounding = num::gamma(16) * (sphere.centre().abs().max_element() + sphere.radius());
+        if distance <= sphere.radius() + rounding {
             return None;
         }
         let sin_max = sphere.radius() / distance;
@@ -66,7 +68,7 @@ impl SampledShape for Sphere {
     }
 
     /// By solid angle: uniform in the cone `1 / (2π (1 − cos θ_max))`, and the point where that
-    /// direction first meets the sphere. From inside, and for an inward sphere, by area.
+    /// direction first meets the sphere. From inside and from the surface itself, by area.
     #[inline]
     fn sample_surface(&self, from: &Receiver, method: SurfaceDensity, u: [f32; 2]) -> Option<SurfaceSample> {
         match (method, Cone::new(self, from.point)) {

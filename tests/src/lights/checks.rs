@@ -8,8 +8,8 @@ use crate::{Verdict, ensure};
 use halflight::glam::Vec3;
 use halflight::light::{AreaLight, SampledShape};
 
-/// Samples of each estimate: its standard error is a fifth of a percent or less.
-const SAMPLES: u64 = 1 << 20;
+/// Samples of each estimate: their standard errors are some tenths of a percent.
+const SAMPLES: u64 = 1 << 19;
 
 /// What single precision and the quadrature of the truth may add to a mean.
 const ROUNDING: f64 = 5e-4;

@@ -1,0 +1,132 @@
+//! Small scenes whose light is known.
+
+use crate::random::Uniforms;
+use crate::statistics::Moments;
+use halflight::Rgb;
+use halflight::bsdf::{AnyBsdf, Lambert, Phong, TwoSided};
+use halflight::build::{
+    CameraDescription, Description, Emission, FovAxis, Geometry, IntegratorDescription, Material, Object,
+    ProjectionDescription, SceneBuffers,
+};
+use halflight::camera::View;
+use halflight::estimate::{Estimator, PixelStats};
+use halflight::film::Filter;
+use halflight::geom::Ray;
+use halflight::glam::Vec3;
+use halflight::light::AnyLight;
+use halflight::sequence::{Random, Sequence};
+use halflight::shape::{AnyShape, Rectangle};
+
+/// A scene in the making.
+#[derive(Debug, Clone)]
+pub struct Stage(pub Description);
+
+impl Stage {
+    /// Nothing but a camera above the origin, and three materials: black, white, and half glossy.
+    #[must_use]
+    pub fn empty() -> Self {
+        let matte = |r| AnyBsdf::Lambert(Lambert::new(Rgb::splat(r)).expect("a reflectance"));
+        let glossy = Phong::new(Rgb::splat(0.4), Rgb::splat(0.5), 40.0).expect("reflectances");
+        let material = |name: &str, bsdf| Material { name: name.into(), bsdf: TwoSided::both(bsdf) };
+        let view = View::look_at(Vec3::new(0.0, 3.0, 6.0), Vec3::Y * 0.5, Vec3::Y).expect("a view");
+        Self(Description {
+            name: "stage".into(),
+            camera: CameraDescription {
+                view,
+                projection: ProjectionDescription::Perspective { fov: 50.0, axis: FovAxis::X },
+                near: 0.0,
+                far: f32::INFINITY,
+            },
+            width: 16,
+            height: 12,
+            filter: Filter::PIXEL,
+            integrator: IntegratorDescription::default(),
+            samples_per_pixel: None,
+            materials: vec![
+                material("black", matte(0.0)),
+                material("white", matte(1.0)),
+                material("glossy", AnyBsdf::Phong(glossy)),
+            ],
+            objects: Vec::new(),
+            lights: Vec::new(),
+        })
+    }
+
+    /// A large floor of the given material.
+    #[must_use]
+    pub fn floor(material: usize) -> Self {
+        let floor = Rectangle::new(Vec3::ZERO, Vec3::X * 20.0, Vec3::NEG_Z * 20.0).expect("a floor");
+        Self::empty().with(AnyShape::Rectangle(floor), material)
+    }
+
+    /// With a surface that does not emit.
+    #[must_use]
+    pub fn with(mut self, shape: AnyShape, material: usize) -> Self {
+        let name = format!("object {}", self.0.objects.len());
+        self.0.objects.push(Object { name, geometry: Geometry::Shape(shape), material, emission: None });
+        self
+    }
+
+    /// With a black surface that emits.
+    #[must_use]
+    pub fn lit(mut self, shape: AnyShape, radiance: f32) -> Self {
+        self = self.with(shape, 0);
+        let emission = Emission { radiance: Rgb::splat(radiance), two_sided: false };
+        if let Some(object) = self.0.objects.last_mut() {
+            object.emission = Some(emission);
+        }
+        self
+    }
+
+    /// With a light that is no surface.
+    #[must_use]
+    pub fn lit_by(mut self, light: AnyLight) -> Self {
+        self.0.lights.push(light);
+        self
+    }
+
+    /// The tables.
+    #[must_use]
+    pub fn build(&self) -> SceneBuffers {
+        SceneBuffers::new(&self.0).expect("a proper scene")
+    }
+}
+
+/// What an eye half a millimetre away sees of the origin, from the side of `toward`.
+pub fn seen_at_origin(
+    buffers: &SceneBuffers,
+    estimator: &impl Estimator,
+    toward: Vec3,
+    samples: u32,
+) -> Moments {
+    let direction = -toward.normalize();
+    seen(buffers, estimator, &Ray::new(direction * -5e-4, direction), samples)
+}
+
+/// What arrives along a ray, from independent samples.
+pub fn seen(buffers: &SceneBuffers, estimator: &impl Estimator, ray: &Ray, samples: u32) -> Moments {
+    let scene = buffers.scene();
+    let mut sequence: Random = Random::new(101);
+    Moments::of((0..samples).map(|sample| {
+        sequence.start(7, sample);
+        let radiance = estimator.sample(&scene, ray, f32::INFINITY, &mut sequence);
+        assert!(radiance.is_valid(), "{radiance:?} along {ray:?}");
+        f64::from(radiance.g)
+    }))
+}
+
+/// A hash of the bits of a picture (FNV-1a).
+#[must_use]
+pub fn checksum(pixels: &[PixelStats]) -> u32 {
+    let bytes = pixels.iter().flat_map(|p| p.mean().to_array()).flat_map(|v| v.to_bits().to_le_bytes());
+    bytes.fold(0x811c_9dc5, |hash, byte| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193))
+}
+
+/// Points of the upper hemisphere, for eyes.
+pub fn eyes(count: usize) -> impl Iterator<Item = Vec3> {
+    let mut random = Uniforms::new(102);
+    (0..count).map(move |_| {
+        let d = random.direction();
+        Vec3::new(d.x, d.y.abs() + 0.2, d.z).normalize()
+    })
+}
