@@ -19,11 +19,11 @@ const END: f32 = -12.0;
 
 /// Radiance of the lanterns [W m⁻² sr⁻¹].
 const GLOW: [Channels; 5] =
-    [[7.5, 2.6, 0.55], [8.5, 0.85, 0.30], [6.5, 0.75, 0.85], [8.0, 4.0, 1.2], [0.6, 3.0, 3.6]];
+    [[10.0, 3.6, 0.65], [11.0, 1.2, 0.40], [8.5, 1.0, 1.1], [10.5, 5.4, 1.6], [0.7, 4.0, 4.8]];
 
 pub(super) fn make() -> Result<Description, BuiltinError> {
     let mut author = Author::default();
-    let paving = author.matte("paving", [0.42, 0.39, 0.37])?;
+    let paving = author.matte("paving", [0.54, 0.51, 0.49])?;
     let stucco = author.matte("stucco", [0.70, 0.62, 0.54])?;
     let rope = author.matte("rope", [0.10, 0.08, 0.06])?;
     author.mesh("paving", paving_stones(), paving);

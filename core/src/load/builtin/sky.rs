@@ -25,8 +25,8 @@ pub(super) fn make() -> Result<Description, BuiltinError> {
     author.mesh("cypresses", cypresses(), leaf);
     author.mesh("fountain", fountain(), clay);
     author.light(AnyLight::Constant(Constant::new([1.05, 1.12, 1.2].into())?));
-    let to = Vec3::new(0.1, 2.1, 0.0);
-    let shot = Shot::orthographic(to + Vec3::new(9.0, 8.2, 12.0), to, 6.5);
+    let to = Vec3::new(0.1, 2.0, 0.0);
+    let shot = Shot::orthographic(to + Vec3::new(9.0, 8.2, 12.0), to, 6.95);
     author.scene("sky", shot)
 }
 
