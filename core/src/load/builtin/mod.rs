@@ -33,7 +33,7 @@ pub const BUILTIN: [Builtin; 8] = [
     },
     Builtin {
         name: "penumbra",
-        about: "the same spray in five niches, under lamps of equal power and growing size: shadows from hard to soft",
+        about: "the same spray in four niches, under lamps of equal power and growing size: shadows from hard to soft",
         make: penumbra::make,
     },
     Builtin {

@@ -1,4 +1,4 @@
-//! `penumbra`: the same spray in five niches, under lamps of growing size.
+//! `penumbra`: the same spray in four niches, under lamps of growing size.
 
 use super::author::{Author, BuiltinError, Shot};
 use super::mesh::{Pose, Tube, append, cuboid, lathe, spline, surface, tube};
