@@ -4,7 +4,7 @@ use crate::args::RenderArgs;
 use crate::driver::{self, Rendered};
 use crate::failure::{Exit, Failure};
 use crate::interrupt::on_interrupt;
-use crate::number::counted;
+use crate::number::{bytes, counted};
 use crate::output::Output;
 use crate::picture::{Format, Picture};
 use crate::plan::{self, Plan};
@@ -13,9 +13,10 @@ use crate::report::{Report, Seconds};
 use crate::scene::{self, Found};
 use crate::terminal;
 use halflight::build::{Description, SceneBuffers};
-use halflight::estimate::Job;
+use halflight::estimate::{Job, PixelStats};
 use halflight::{Camera, Film};
 use rayon::{ThreadPool, ThreadPoolBuilder};
+use std::hint::black_box;
 use std::thread::available_parallelism;
 use std::time::Instant;
 
@@ -121,8 +122,25 @@ fn view(args: &RenderArgs, description: &Description) -> Result<(Film, Camera), 
             Failure::new(e).tip(format!("the film is {width}×{height} pixels; choose --crop within it"))
         })?;
     }
+    check_memory(&film)?;
     let camera = description.camera.camera(width, height).map_err(Failure::new)?;
     Ok((film, camera))
+}
+
+/// Asks for the film's memory once as a whole: piece by piece, the system would promise more than it
+/// has, and end the program later.
+fn check_memory(film: &Film) -> Result<(), Failure> {
+    let pixels = film.crop().area();
+    let mut probe = Vec::<PixelStats>::new();
+    let granted = probe.try_reserve_exact(pixels).is_ok();
+    black_box(&probe);
+    if granted {
+        return Ok(());
+    }
+    let (width, height) = (film.crop().width(), film.crop().height());
+    let needed = bytes(pixels as u64 * size_of::<PixelStats>() as u64);
+    Err(Failure::new(format!("{width}×{height} pixels need {needed} of memory, more than there is"))
+        .tip("choose a smaller --width and --height, or a part with --crop"))
 }
 
 /// Columns and rows; one that is not given follows from the other, so that the picture keeps its shape.

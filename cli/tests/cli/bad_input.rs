@@ -1,6 +1,10 @@
 //! Whatever is wrong with what goes in: code 2, one clear message, nothing overwritten.
 
-use crate::support::{EMITTER, Folder, SCENE, not_run};
+#[cfg(target_os = "linux")]
+use crate::support::Run;
+#[cfg(unix)]
+use crate::support::not_run;
+use crate::support::{EMITTER, Folder, SCENE};
 use std::fs;
 
 /// Renders a scene that must be refused over a picture that must survive; returns the message.
@@ -191,6 +195,24 @@ fn values_that_make_no_sense() {
         let message = folder.refused(&format!("render scene.xml -o out.png {line}"));
         assert!(message.contains(word), "{line}: {message}");
     }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_film_that_memory_cannot_hold() {
+    let folder = Folder::new();
+    let halflight = env!("CARGO_BIN_EXE_halflight");
+    let script = format!(
+        "ulimit -v 4000000; exec '{halflight}' render scene.xml -o out.png --threads 1 --width 65536 --height 65536"
+    );
+    let run: Run = std::process::Command::new("sh")
+        .args(["-c", &script])
+        .current_dir(folder.path(""))
+        .output()
+        .unwrap()
+        .into();
+    run.assert_refusal(&script);
+    assert!(run.stderr.contains("128 GiB of memory") && run.stderr.contains("--crop"), "{run:?}");
 }
 
 #[test]

@@ -60,6 +60,19 @@ fn ctrl_c_saves_what_there_is() {
 }
 
 #[test]
+fn without_arguments_the_first_scene_is_rendered() {
+    let folder = Folder::new();
+    // All its samples would take a while; the first of each pixel shows as much.
+    let child = begin(&folder, "");
+    interrupt(&child);
+    let run = end(child);
+    assert_eq!(run.code, Some(130), "{run:?}");
+    assert!(run.stdout.starts_with("halflight.png  960×640  "), "{run:?}");
+    assert_eq!(folder.names(), ["halflight.png", "scene.xml"]);
+    assert_eq!(image::image_dimensions(folder.path("halflight.png")).unwrap(), (960, 640));
+}
+
+#[test]
 fn a_second_ctrl_c_ends_it_at_once() {
     let folder = Folder::new();
     // The first sample of each pixel is taken in any case: here that takes a while.
