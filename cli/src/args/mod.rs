@@ -1,0 +1,165 @@
+//! The command line: what can be typed, and its typed form.
+
+mod render;
+mod values;
+
+pub(crate) use render::{Choices, Choose, Heuristic, Lights, RenderArgs, Sequence, Technique};
+
+use clap::builder::Styles;
+use clap::builder::styling::{AnsiColor, Style};
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+use clap::{Args, Parser, Subcommand};
+use halflight::load::builtin::BUILTIN;
+use std::path::PathBuf;
+
+/// Direct lighting from area and environment lights, to a known accuracy
+///
+/// Without a command, halflight renders the default built-in scene to halflight.png.
+#[derive(Debug, Parser)]
+#[command(name = "halflight", version, styles = STYLES, max_term_width = 100, after_help = EXIT_CODES)]
+#[command(disable_help_subcommand = true)]
+struct CommandLine {
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Render a scene to a picture
+    Render(Box<RenderArgs>),
+    /// List the built-in scenes
+    Scenes(ScenesArgs),
+    /// Write a scene as Mitsuba 3 XML, with its meshes beside it
+    Export(ExportArgs),
+    /// Show what a scene holds, needs and costs
+    Inspect(InspectArgs),
+    /// Measure how far a picture is from a reference
+    Compare(CompareArgs),
+}
+
+/// `halflight scenes`
+#[derive(Debug, Args)]
+pub(crate) struct ScenesArgs {
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// Which scene, and how it is read.
+#[derive(Debug, Args, Default)]
+pub(crate) struct SceneArgs {
+    /// Set a parameter of the scene file, as in -D spp=16 (repeatable)
+    #[arg(short = 'D', value_name = "NAME=VALUE", value_parser = values::definition)]
+    pub(crate) define: Vec<(String, String)>,
+
+    /// Leave out what is not supported, with a warning, instead of refusing the scene
+    #[arg(long)]
+    pub(crate) lenient: bool,
+}
+
+/// `halflight export`
+#[derive(Debug, Args)]
+pub(crate) struct ExportArgs {
+    /// A scene file (Mitsuba 3 XML) or the name of a built-in scene
+    #[arg(value_name = "SCENE")]
+    pub(crate) scene: PathBuf,
+
+    /// Where to write it [default: the scene's name with .xml, in this folder]
+    #[arg(short, long, value_name = "FILE.xml")]
+    pub(crate) output: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub(crate) reading: SceneArgs,
+}
+
+/// `halflight inspect`
+#[derive(Debug, Args)]
+pub(crate) struct InspectArgs {
+    /// A scene file (Mitsuba 3 XML) or the name of a built-in scene
+    #[arg(value_name = "SCENE")]
+    pub(crate) scene: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub(crate) reading: SceneArgs,
+
+    /// Print one JSON object
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// `halflight compare`
+#[derive(Debug, Args)]
+#[command(after_help = MEASURES)]
+pub(crate) struct CompareArgs {
+    /// The picture to judge: .exr, .hdr or .png (taken as sRGB)
+    pub(crate) picture: PathBuf,
+
+    /// The picture to judge it by
+    pub(crate) reference: PathBuf,
+
+    /// Exit with code 1 if relMSE is above this
+    #[arg(long, value_name = "X", value_parser = values::not_negative, allow_negative_numbers = true)]
+    pub(crate) max_relmse: Option<f64>,
+
+    /// Write the absolute difference as a picture (.png, .exr or .hdr)
+    #[arg(short, long, value_name = "OUT")]
+    pub(crate) output: Option<PathBuf>,
+
+    /// Brighten the difference by this many stops when it is written as .png
+    #[arg(long, value_name = "EV", default_value_t = 0.0, value_parser = values::finite, allow_negative_numbers = true)]
+    pub(crate) exposure: f32,
+
+    /// Print one JSON object
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// Colours of the help.
+const STYLES: Styles = Styles::styled()
+    .header(Style::new().bold())
+    .usage(Style::new().bold())
+    .literal(AnsiColor::Cyan.on_default())
+    .placeholder(Style::new());
+
+/// Closes the help.
+const EXIT_CODES: &str = "\
+Exit codes: 0 good, 1 a check failed, 2 misuse or bad input, 130 interrupted.
+NO_COLOR=1 turns colours off. Results go to standard output, everything else to standard error.";
+
+/// Closes the help of `compare`.
+const MEASURES: &str = "\
+All measures are taken over pixels and channels; R is the reference, I the picture.
+  RMSE    square root of the mean of (I - R)², linear
+  relMSE  mean of (I - R)² / (R² + 0.01), linear
+  PSNR    of the pictures as shown: sRGB, cut off at white [dB]
+  mean    mean of I over mean of R: 1 when the picture is neither too bright nor too dark";
+
+/// Reads the command line; exits on misuse, and after printing help.
+pub(crate) fn parse() -> Option<Command> {
+    CommandLine::try_parse().unwrap_or_else(|error| with_hint(error).exit()).command
+}
+
+/// `halflight scene.xml` and `halflight cornell` are likely slips.
+fn with_hint(mut error: clap::Error) -> clap::Error {
+    if let (ErrorKind::InvalidSubcommand, Some(ContextValue::String(word))) =
+        (error.kind(), error.get(ContextKind::InvalidSubcommand))
+        && (word.contains(['.', '/', '\\']) || BUILTIN.iter().any(|b| b.name == *word))
+    {
+        let hint = format!("to render a scene: halflight render {word}");
+        error.remove(ContextKind::SuggestedSubcommand);
+        error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![hint.into()]));
+    }
+    error
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_definition_is_consistent() {
+        CommandLine::command().debug_assert();
+    }
+}

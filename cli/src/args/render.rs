@@ -1,0 +1,195 @@
+//! The arguments of `halflight render`.
+
+use super::SceneArgs;
+use super::values::{crop, finite, positive};
+use clap::builder::RangedU64ValueParser;
+use clap::{Args, ValueEnum, value_parser};
+use halflight::film::{MAX_RESOLUTION, PixelRect};
+use std::path::PathBuf;
+
+/// `halflight render`
+#[derive(Debug, Args)]
+pub(crate) struct RenderArgs {
+    /// A scene file (Mitsuba 3 XML) or the name of a built-in scene [default: the first of
+    /// `halflight scenes`]
+    #[arg(value_name = "SCENE")]
+    pub(crate) scene: Option<PathBuf>,
+
+    /// The picture: .png (8-bit sRGB), .exr (linear, 32-bit float) or .hdr (linear, RGBE)
+    #[arg(short, long, value_name = "OUT", default_value = DEFAULT_OUTPUT)]
+    pub(crate) output: PathBuf,
+
+    /// Samples per pixel [default: what the scene says, or 64]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..), allow_negative_numbers = true)]
+    pub(crate) spp: Option<u32>,
+
+    /// Columns; the rows follow unless --height is given too
+    #[arg(long, value_name = "PIXELS", value_parser = resolution(), allow_negative_numbers = true)]
+    pub(crate) width: Option<u32>,
+
+    /// Rows; the columns follow unless --width is given too
+    #[arg(long, value_name = "PIXELS", value_parser = resolution(), allow_negative_numbers = true)]
+    pub(crate) height: Option<u32>,
+
+    /// Render only this window: first column and row, one past the last column and row
+    #[arg(long, value_name = "X0,Y0,X1,Y1", value_parser = crop, allow_hyphen_values = true)]
+    pub(crate) crop: Option<PixelRect>,
+
+    /// Brighten by this many stops; only .png
+    #[arg(long, value_name = "EV", value_parser = finite, allow_negative_numbers = true)]
+    pub(crate) exposure: Option<f32>,
+
+    /// Which random numbers: the same seed gives the same bits, with any number of threads
+    #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true)]
+    pub(crate) seed: u32,
+
+    /// Threads [default: one for each core]
+    #[arg(long, value_name = "N", value_parser = RangedU64ValueParser::<usize>::new().range(1..=1024), allow_negative_numbers = true)]
+    pub(crate) threads: Option<usize>,
+
+    #[command(flatten)]
+    pub(crate) choices: Choices,
+
+    #[command(flatten, next_help_heading = None)]
+    pub(crate) reading: SceneArgs,
+
+    /// Print neither progress nor summary
+    #[arg(long)]
+    pub(crate) quiet: bool,
+
+    /// Print the summary as one JSON object
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// Choices that trade time for accuracy; `auto` takes what the scene requires.
+#[derive(Debug, Args, Default)]
+#[command(next_help_heading = "Choices that trade time for accuracy")]
+pub(crate) struct Choices {
+    /// How the surface of a light is sampled
+    #[arg(long, value_enum, value_name = "HOW", default_value_t)]
+    pub(crate) lights: Lights,
+
+    /// Where directions come from
+    #[arg(long, value_enum, value_name = "HOW", default_value_t)]
+    pub(crate) technique: Technique,
+
+    /// How mis weighs its two techniques [default: power]
+    #[arg(long, value_enum, value_name = "HOW")]
+    pub(crate) heuristic: Option<Heuristic>,
+
+    /// Light samples for each sample of a pixel [default: what the scene says, or 1]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=MAX_SPLIT), allow_negative_numbers = true)]
+    pub(crate) light_samples: Option<u32>,
+
+    /// BSDF samples for each sample of a pixel [default: what the scene says, or 1]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=MAX_SPLIT), allow_negative_numbers = true)]
+    pub(crate) bsdf_samples: Option<u32>,
+
+    /// How far away a surface still shades, with --technique occlusion [default: any distance]
+    #[arg(long, value_name = "METRES", value_parser = positive, allow_negative_numbers = true)]
+    pub(crate) occlusion_distance: Option<f32>,
+
+    /// Which light is sampled where there are several
+    #[arg(long, value_enum, value_name = "HOW", default_value_t)]
+    pub(crate) choose: Choose,
+
+    /// Where the uniform numbers come from
+    #[arg(long, value_enum, value_name = "HOW", default_value_t)]
+    pub(crate) sequence: Sequence,
+}
+
+/// The picture when nothing else is said.
+const DEFAULT_OUTPUT: &str = "halflight.png";
+
+/// Most light or BSDF samples for one camera sample.
+const MAX_SPLIT: i64 = 65_536;
+
+/// A number of pixels that a film can have.
+fn resolution() -> clap::builder::RangedI64ValueParser<u32> {
+    value_parser!(u32).range(1..=i64::from(MAX_RESOLUTION))
+}
+
+/// How the surface of a light is sampled.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub(crate) enum Lights {
+    /// What the scene requires
+    #[default]
+    Auto,
+    /// Uniform over its area
+    Area,
+    /// Uniform over the solid angle it fills, where that is known
+    SolidAngle,
+}
+
+/// Where directions come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub(crate) enum Technique {
+    /// What the scene requires
+    #[default]
+    Auto,
+    /// From the lights
+    Light,
+    /// From the materials
+    Bsdf,
+    /// From both, weighted (multiple importance sampling)
+    Mis,
+    /// Ambient occlusion: how much of the sky is open, without lights
+    Occlusion,
+}
+
+/// How two techniques are weighed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Heuristic {
+    /// By their densities
+    Balance,
+    /// By the squares of their densities
+    Power,
+}
+
+/// Which light is sampled.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub(crate) enum Choose {
+    /// What the scene requires
+    #[default]
+    Auto,
+    /// Every light, each time
+    All,
+    /// One, each as likely
+    Uniform,
+    /// One, by its power
+    Power,
+}
+
+/// Where the uniform numbers come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub(crate) enum Sequence {
+    /// What the scene requires
+    #[default]
+    Auto,
+    /// Independent random numbers
+    Random,
+    /// Owen-scrambled Sobol points
+    Sobol,
+}
+
+impl Default for RenderArgs {
+    /// What `halflight` alone does.
+    fn default() -> Self {
+        Self {
+            scene: None,
+            output: DEFAULT_OUTPUT.into(),
+            spp: None,
+            width: None,
+            height: None,
+            crop: None,
+            exposure: None,
+            seed: 0,
+            threads: None,
+            choices: Choices::default(),
+            reading: SceneArgs::default(),
+            quiet: false,
+            json: false,
+        }
+    }
+}

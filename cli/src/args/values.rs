@@ -1,0 +1,73 @@
+//! Values that need more than a number or a word.
+
+use halflight::film::PixelRect;
+
+/// `x0,y0,x1,y1`.
+pub(super) fn crop(text: &str) -> Result<PixelRect, String> {
+    let numbers: Option<Vec<u32>> = text.split(',').map(|n| n.trim().parse().ok()).collect();
+    match numbers.as_deref() {
+        Some(&[x0, y0, x1, y1]) if x0 < x1 && y0 < y1 => Ok(PixelRect { x0, y0, x1, y1 }),
+        Some(&[_, _, _, _]) => Err("the window is empty; X0 must be below X1, and Y0 below Y1".to_owned()),
+        _ => Err("four whole numbers are needed, as in 100,80,300,200".to_owned()),
+    }
+}
+
+/// A number that is neither infinite nor NaN.
+pub(super) fn finite(text: &str) -> Result<f32, String> {
+    match text.parse() {
+        Ok(x) if f32::is_finite(x) => Ok(x),
+        _ => Err("a number is needed, as in -1.5".to_owned()),
+    }
+}
+
+/// A number above 0; may be infinite.
+pub(super) fn positive(text: &str) -> Result<f32, String> {
+    match text.parse() {
+        Ok(x) if x > 0.0 => Ok(x),
+        _ => Err("a number above 0 is needed".to_owned()),
+    }
+}
+
+/// A number of at least 0.
+pub(super) fn not_negative(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(x) if x >= 0.0 => Ok(x),
+        _ => Err("a number of 0 or more is needed, as in 0.01".to_owned()),
+    }
+}
+
+/// `name=value`.
+pub(super) fn definition(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((name, value)) if !name.trim().is_empty() => {
+            Ok((name.trim().to_owned(), value.trim().to_owned()))
+        }
+        _ => Err("a name and a value are needed, as in spp=16".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_window_has_four_numbers_and_an_inside() {
+        assert_eq!(crop("1, 2,3,4"), Ok(PixelRect { x0: 1, y0: 2, x1: 3, y1: 4 }));
+        for text in ["", "1,2,3", "1,2,3,4,5", "a,b,c,d", "-1,0,2,2", "3,0,3,2", "0,2,3,1", "0,0,1e9,2"] {
+            assert!(crop(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn numbers_that_are_none_are_refused() {
+        assert!(finite("inf").is_err() && finite("nan").is_err() && finite("bright").is_err());
+        assert!(positive("0").is_err() && positive("nan").is_err() && positive("inf").is_ok());
+        assert!(not_negative("-1").is_err() && not_negative("nan").is_err() && not_negative("0").is_ok());
+    }
+
+    #[test]
+    fn a_definition_may_hold_further_equals_signs() {
+        assert_eq!(definition("a=b=c"), Ok(("a".into(), "b=c".into())));
+        assert!(definition("a").is_err() && definition("=b").is_err());
+    }
+}

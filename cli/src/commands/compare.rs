@@ -1,0 +1,169 @@
+//! `halflight compare`: how far a picture is from a reference.
+
+use crate::args::CompareArgs;
+use crate::failure::{Exit, Failure};
+use crate::number::significant;
+use crate::output::Output;
+use crate::picture::{Format, Picture, encode, read};
+use crate::terminal;
+use halflight::Rgb;
+use serde_json::json;
+use std::path::Path;
+
+/// How far a picture is from its reference, over pixels and channels.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Measures {
+    /// Root of the mean squared difference.
+    rmse: f64,
+    /// Mean squared difference, relative.
+    relmse: f64,
+    /// Of the pictures as shown [dB]; infinite for equal ones.
+    psnr: f64,
+    /// Mean over mean; `None` where the reference is black.
+    mean_ratio: Option<f64>,
+}
+
+/// Compares two pictures.
+pub(crate) fn run(args: &CompareArgs) -> Result<Exit, Failure> {
+    let output = match &args.output {
+        Some(path) => Some((Format::of(path)?, Output::check(path)?)),
+        None => None,
+    };
+    let (picture, reference) = (finite(&args.picture)?, finite(&args.reference)?);
+    check_sizes(args, &picture, &reference)?;
+    let measures = measure(&picture, &reference);
+    if let Some((format, output)) = output {
+        output.write(&format.encode(&difference(&picture, &reference), args.exposure)?)?;
+    }
+    let passed = args.max_relmse.is_none_or(|most| measures.relmse <= most);
+    tell(args, &measures, passed)?;
+    Ok(if passed { Exit::Good } else { Exit::CheckFailed })
+}
+
+/// Reads a picture, all of whose values must be numbers.
+fn finite(path: &Path) -> Result<Picture, Failure> {
+    let picture = read(path)?;
+    match picture.pixels.iter().position(|p| !p.is_finite()) {
+        Some(i) => {
+            let (x, y) = (i % picture.width as usize, i / picture.width as usize);
+            let name = path.display();
+            Err(Failure::new(format!("{name}: pixel ({x}, {y}) is infinite or not a number"))
+                .tip("such a picture cannot be measured; render it anew"))
+        }
+        None => Ok(picture),
+    }
+}
+
+/// Only pictures of one size can be compared.
+fn check_sizes(args: &CompareArgs, picture: &Picture, reference: &Picture) -> Result<(), Failure> {
+    if (picture.width, picture.height) == (reference.width, reference.height) {
+        return Ok(());
+    }
+    Err(Failure::new(format!(
+        "{} is {}×{} pixels, {} is {}×{}",
+        args.picture.display(),
+        picture.width,
+        picture.height,
+        args.reference.display(),
+        reference.width,
+        reference.height
+    ))
+    .tip("only pictures of the same size can be compared"))
+}
+
+/// Pairs of values, picture first.
+fn pairs<'a>(picture: &'a Picture, reference: &'a Picture) -> impl Iterator<Item = (f32, f32)> + 'a {
+    picture.pixels.iter().zip(&reference.pixels).flat_map(|(i, r)| i.to_array().into_iter().zip(r.to_array()))
+}
+
+/// Takes all measures.
+fn measure(picture: &Picture, reference: &Picture) -> Measures {
+    let mean = |term: &dyn Fn(f32, f32) -> f64| {
+        pairs(picture, reference).map(|(i, r)| term(i, r)).sum::<f64>() / (3 * picture.pixels.len()) as f64
+    };
+    let square = |i: f32, r: f32| (f64::from(i) - f64::from(r)).powi(2);
+    let mse = mean(&square);
+    let reference_mean = mean(&|_, r| f64::from(r));
+    Measures {
+        rmse: mse.sqrt(),
+        relmse: mean(&|i, r| square(i, r) / (f64::from(r).powi(2) + 0.01)),
+        psnr: -10.0 * mean(&|i, r| square(encode(i), encode(r))).log10(),
+        mean_ratio: (reference_mean > 0.0).then(|| mean(&|i, _| f64::from(i)) / reference_mean),
+    }
+}
+
+/// |I − R| per channel.
+fn difference(picture: &Picture, reference: &Picture) -> Picture {
+    let apart = |i: Rgb, r: Rgb| (i - r).map(f32::abs);
+    let pixels = picture.pixels.iter().zip(&reference.pixels).map(|(&i, &r)| apart(i, r)).collect();
+    Picture { pixels, ..*picture }
+}
+
+/// Prints the measures, and the outcome of the check if there is one.
+fn tell(args: &CompareArgs, measures: &Measures, passed: bool) -> Result<(), Failure> {
+    let Measures { rmse, relmse, psnr, mean_ratio } = *measures;
+    if args.json {
+        terminal::json(&json!({
+            "picture": args.picture.to_string_lossy(),
+            "reference": args.reference.to_string_lossy(),
+            "rmse": rmse,
+            "relmse": relmse,
+            // JSON has no infinity: null stands for that of equal pictures.
+            "psnr": psnr.is_finite().then_some(psnr),
+            "mean_ratio": mean_ratio,
+            "max_relmse": args.max_relmse,
+            "passed": passed,
+        }))?;
+    } else {
+        let ratio = mean_ratio.map_or_else(|| "unknown".to_owned(), |r| format!("{r:.5}"));
+        let psnr = if psnr.is_finite() { format!("{psnr:.2}") } else { "∞".to_owned() };
+        terminal::result(&format!(
+            "RMSE {}  relMSE {}  PSNR {psnr} dB  mean {ratio}",
+            significant(rmse),
+            significant(relmse),
+        ))?;
+    }
+    if let (false, Some(most)) = (passed, args.max_relmse) {
+        let (relmse, most) = (significant(relmse), significant(most));
+        terminal::remark(format!("check failed: relMSE {relmse} is above {most}"));
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn grey(values: &[f32]) -> Picture {
+        let pixels = values.iter().map(|&v| Rgb::splat(v)).collect();
+        Picture { width: values.len() as u32, height: 1, pixels }
+    }
+
+    #[test]
+    fn equal_pictures_differ_by_nothing() {
+        let measures = measure(&grey(&[0.1, 0.7]), &grey(&[0.1, 0.7]));
+        assert_eq!((measures.rmse, measures.relmse, measures.mean_ratio), (0.0, 0.0, Some(1.0)));
+        assert_eq!(measures.psnr, f64::INFINITY);
+    }
+
+    #[test]
+    fn measures_match_their_definitions() {
+        // Differences 0.25 and 0; (1/16)/(0.5² + 0.01)/2.
+        let measures = measure(&grey(&[0.75, 0.0]), &grey(&[0.5, 0.0]));
+        assert!((measures.rmse - (0.0625_f64 / 2.0).sqrt()).abs() < 1e-12);
+        assert!((measures.relmse - 0.0625 / 0.26 / 2.0).abs() < 1e-12);
+        assert!((measures.mean_ratio.unwrap() - 1.5).abs() < 1e-12);
+        let shown = f64::from(encode(0.75)) - f64::from(encode(0.5));
+        assert!((measures.psnr + 10.0 * (shown * shown / 2.0).log10()).abs() < 1e-9);
+    }
+
+    #[test]
+    fn the_mean_of_a_black_reference_is_no_measure() {
+        assert_eq!(measure(&grey(&[0.5]), &grey(&[0.0])).mean_ratio, None);
+    }
+
+    #[test]
+    fn the_difference_has_no_sign() {
+        assert_eq!(difference(&grey(&[0.25, 1.0]), &grey(&[0.5, 0.5])), grey(&[0.25, 0.5]));
+    }
+}

@@ -1,0 +1,7 @@
+//! The commands: one file each.
+
+pub(crate) mod compare;
+pub(crate) mod export;
+pub(crate) mod inspect;
+pub(crate) mod render;
+pub(crate) mod scenes;

@@ -1,0 +1,36 @@
+//! The command line of halflight: arguments, threads, files, progress, reports.
+//!
+//! What light does is the business of the `halflight` library; nothing here computes it.
+
+mod args;
+mod commands;
+mod driver;
+mod failure;
+mod interrupt;
+mod number;
+mod output;
+mod picture;
+mod plan;
+mod progress;
+mod report;
+mod scene;
+mod terminal;
+
+use args::{Command, RenderArgs};
+use commands::{compare, export, inspect, render, scenes};
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let result = match args::parse() {
+        None => render::run(&RenderArgs::default()),
+        Some(Command::Render(args)) => render::run(&args),
+        Some(Command::Scenes(args)) => scenes::run(&args),
+        Some(Command::Export(args)) => export::run(&args),
+        Some(Command::Inspect(args)) => inspect::run(&args),
+        Some(Command::Compare(args)) => compare::run(&args),
+    };
+    match result {
+        Ok(exit) => exit.into(),
+        Err(failure) => failure.report(),
+    }
+}

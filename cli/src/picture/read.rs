@@ -1,0 +1,87 @@
+//! Decoding files as pictures.
+
+use super::{Picture, decode};
+use crate::failure::{Failure, io_reason};
+use halflight::Rgb;
+use image::{DynamicImage, ImageError, ImageReader};
+use std::path::Path;
+
+/// Reads a .exr, .hdr or .png file; the latter is taken as sRGB.
+///
+/// # Errors
+/// When it cannot be read or is none of these.
+pub(crate) fn read(path: &Path) -> Result<Picture, Failure> {
+    let fail = |reason: String| Failure::new(format!("cannot read {}: {reason}", path.display()));
+    let mut reader = ImageReader::open(path)
+        .and_then(ImageReader::with_guessed_format)
+        .map_err(|e| fail(io_reason(&e)))?;
+    // The default limit of half a gigabyte is less than a large film.
+    reader.no_limits();
+    let image = reader.decode().map_err(|e| fail(reason(&e)).tip("pictures can be .exr, .hdr or .png"))?;
+    Ok(picture(&image))
+}
+
+/// Linear RGB, without alpha.
+fn picture(image: &DynamicImage) -> Picture {
+    let linear = matches!(image, DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_));
+    let rgb = image.to_rgb32f();
+    let pixels = rgb.pixels().map(|p| Rgb::from(p.0)).map(|p| if linear { p } else { p.map(decode) });
+    Picture { width: rgb.width(), height: rgb.height(), pixels: pixels.collect() }
+}
+
+/// What is wrong with the file.
+fn reason(error: &ImageError) -> String {
+    match error {
+        ImageError::IoError(e) => io_reason(e),
+        ImageError::Unsupported(_) => "it is not a picture that halflight reads".to_owned(),
+        other => other.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::picture::Format;
+
+    fn gradient() -> Picture {
+        let pixels = (0..12 * 5).map(|i| Rgb::new(i as f32 / 60.0, 0.5, 1.0 - i as f32 / 60.0)).collect();
+        Picture { width: 12, height: 5, pixels }
+    }
+
+    fn round_trip(format: Format, name: &str) -> Picture {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join(name);
+        std::fs::write(&path, format.encode(&gradient(), 0.0).unwrap()).unwrap();
+        read(&path).unwrap()
+    }
+
+    fn largest_difference(a: &Picture, b: &Picture) -> f32 {
+        assert_eq!((a.width, a.height), (b.width, b.height));
+        let channels = |p: &Picture| p.pixels.iter().flat_map(|p| p.to_array()).collect::<Vec<_>>();
+        channels(a).iter().zip(channels(b)).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
+    }
+
+    #[test]
+    fn exr_keeps_every_bit() {
+        assert_eq!(round_trip(Format::Exr, "a.exr"), gradient());
+    }
+
+    #[test]
+    fn hdr_keeps_eight_bits_of_the_largest_channel() {
+        assert!(largest_difference(&round_trip(Format::Hdr, "a.hdr"), &gradient()) < 1.0 / 128.0);
+    }
+
+    #[test]
+    fn png_is_linear_again_after_reading() {
+        assert!(largest_difference(&round_trip(Format::Png, "a.png"), &gradient()) < 0.005);
+    }
+
+    #[test]
+    fn what_is_not_a_picture_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.png");
+        std::fs::write(&path, "not a picture").unwrap();
+        assert!(read(&path).is_err());
+        assert!(read(&folder.path().join("missing.png")).is_err());
+    }
+}

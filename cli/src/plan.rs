@@ -1,0 +1,230 @@
+//! From the choices on the command line, `auto` among them, to an estimator.
+
+use crate::args::{Choices, Choose, Heuristic, Lights, Sequence, Technique};
+use crate::failure::Failure;
+use halflight::build::{Description, SceneBuffers};
+use halflight::choose::LightChoice;
+use halflight::estimate::{AnyEstimator, Direct, Heuristic as Weights, Occlusion, Technique as Combine};
+use halflight::light::{AnyLight, Emitter, SurfaceDensity};
+use halflight::sequence::{AnySequence, Random, Sobol};
+use std::fmt;
+
+/// With `auto`, up to so many lights are all sampled at each point; of more, one is chosen by power.
+const FEW_LIGHTS: usize = 4;
+
+/// Which light a sample goes to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Choice {
+    All,
+    Uniform,
+    Power,
+}
+
+/// Every choice made.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Plan {
+    /// Direct light.
+    Direct {
+        technique: Combine,
+        light_samples: u32,
+        bsdf_samples: u32,
+        surface: SurfaceDensity,
+        choice: Choice,
+        sobol: bool,
+    },
+    /// Ambient occlusion.
+    Occlusion { reach: f32, sobol: bool },
+}
+
+/// Refuses choices that contradict each other.
+///
+/// # Errors
+/// When a flag has no use with the technique that was asked for.
+pub(crate) fn check(choices: &Choices) -> Result<(), Failure> {
+    use Technique::{Auto, Bsdf, Light, Mis, Occlusion};
+    let uses = [
+        ("--heuristic", choices.heuristic.is_some(), &[Auto, Mis][..]),
+        ("--light-samples", choices.light_samples.is_some(), &[Auto, Light, Bsdf, Mis]),
+        ("--bsdf-samples", choices.bsdf_samples.is_some(), &[Auto, Bsdf, Mis]),
+        ("--lights", choices.lights != Lights::Auto, &[Auto, Light, Bsdf, Mis]),
+        ("--choose", choices.choose != Choose::Auto, &[Auto, Light, Bsdf, Mis]),
+        ("--occlusion-distance", choices.occlusion_distance.is_some(), &[Occlusion]),
+    ];
+    match uses.iter().find(|(_, given, with)| *given && !with.contains(&choices.technique)) {
+        Some((flag, _, with)) => {
+            let names: Vec<_> = with.iter().map(|t| technique_name(*t)).collect();
+            let (asked, names) = (technique_name(choices.technique), names.join(", "));
+            Err(Failure::new(format!("{flag} has no use with --technique {asked}"))
+                .tip(format!("leave {flag} out, or use it with --technique {names}")))
+        }
+        None => Ok(()),
+    }
+}
+
+/// As it is typed.
+const fn technique_name(technique: Technique) -> &'static str {
+    match technique {
+        Technique::Auto => "auto",
+        Technique::Light => "light",
+        Technique::Bsdf => "bsdf",
+        Technique::Mis => "mis",
+        Technique::Occlusion => "occlusion",
+    }
+}
+
+/// Makes every choice.
+///
+/// # Errors
+/// When the scene has no light, so that the picture would be black.
+pub(crate) fn make(
+    choices: &Choices,
+    description: &Description,
+    buffers: &SceneBuffers,
+) -> Result<Plan, Failure> {
+    let sobol = choices.sequence != Sequence::Random;
+    if choices.technique == Technique::Occlusion {
+        return Ok(Plan::Occlusion { reach: choices.occlusion_distance.unwrap_or(f32::INFINITY), sobol });
+    }
+    check_lights(description, buffers.scene().lights())?;
+    let author = &description.integrator;
+    let surface = match choices.lights {
+        Lights::Area => SurfaceDensity::Area,
+        Lights::Auto | Lights::SolidAngle => SurfaceDensity::SolidAngle,
+    };
+    Ok(Plan::Direct {
+        technique: technique(choices, author.light_samples, author.bsdf_samples),
+        light_samples: choices.light_samples.or(author.light_samples).unwrap_or(1).max(1),
+        bsdf_samples: choices.bsdf_samples.or(author.bsdf_samples).unwrap_or(1).max(1),
+        surface,
+        choice: choice(choices.choose, buffers),
+        sobol,
+    })
+}
+
+/// Which densities are combined. An author who wants no samples of a kind means the other technique.
+fn technique(choices: &Choices, light_samples: Option<u32>, bsdf_samples: Option<u32>) -> Combine {
+    let weights = match choices.heuristic {
+        Some(Heuristic::Balance) => Weights::Balance,
+        Some(Heuristic::Power) => Weights::Power,
+        None => Weights::default(),
+    };
+    match choices.technique {
+        Technique::Light => Combine::Light,
+        Technique::Bsdf => Combine::Bsdf,
+        Technique::Mis => Combine::Mis(weights),
+        _ if light_samples == Some(0) && choices.light_samples.is_none() => Combine::Bsdf,
+        _ if bsdf_samples == Some(0) && choices.bsdf_samples.is_none() => Combine::Light,
+        _ => Combine::Auto(weights),
+    }
+}
+
+/// Which light a sample goes to.
+fn choice(asked: Choose, buffers: &SceneBuffers) -> Choice {
+    match asked {
+        Choose::All => Choice::All,
+        Choose::Uniform => Choice::Uniform,
+        Choose::Power => Choice::Power,
+        Choose::Auto if buffers.scene().lights().len() <= FEW_LIGHTS => Choice::All,
+        Choose::Auto => Choice::Power,
+    }
+}
+
+/// A picture that would be black is refused.
+fn check_lights(description: &Description, lights: &[AnyLight]) -> Result<(), Failure> {
+    // Any radius will do: it does not decide whether a light is dark.
+    if lights.iter().any(|l| l.power(1.0) > 0.0) {
+        return Ok(());
+    }
+    // The builder leaves out surfaces whose emission is 0.
+    let meant = !description.lights.is_empty() || description.objects.iter().any(|o| o.emission.is_some());
+    let what = if meant { "every light of the scene is dark" } else { "the scene has no lights" };
+    Err(Failure::new(format!("{what}: the picture would be black"))
+        .tip("give the scene an <emitter> that shines, or use --technique occlusion, which needs no light"))
+}
+
+impl Plan {
+    /// The estimator, for the scene that the plan was made for.
+    pub(crate) fn estimator<'a>(&self, buffers: &'a SceneBuffers) -> AnyEstimator<'a> {
+        match *self {
+            Self::Direct { technique, light_samples, bsdf_samples, surface, choice, .. } => {
+                let choice = match (choice, buffers.power_table()) {
+                    (Choice::Power, Some(table)) => LightChoice::Power(table),
+                    (Choice::All, _) => LightChoice::All,
+                    _ => LightChoice::Uniform,
+                };
+                AnyEstimator::Direct(Direct { technique, light_samples, bsdf_samples, surface, choice })
+            }
+            Self::Occlusion { reach, .. } => AnyEstimator::Occlusion(Occlusion { reach, samples: 1 }),
+        }
+    }
+
+    /// True when no light is chosen, as all are sampled.
+    pub(crate) fn samples_every_light(&self) -> bool {
+        matches!(self, Self::Direct { choice: Choice::All, .. })
+    }
+
+    /// The sequence.
+    pub(crate) fn sequence(&self, seed: u32) -> AnySequence {
+        let (Self::Direct { sobol, .. } | Self::Occlusion { sobol, .. }) = *self;
+        if sobol { AnySequence::Sobol(Sobol::new(seed)) } else { AnySequence::Random(Random::new(seed)) }
+    }
+
+    /// Its choices by the names of the flags.
+    pub(crate) fn flags(&self) -> Vec<(&'static str, String)> {
+        let sequence = |sobol| ("sequence", if sobol { "sobol" } else { "random" }.to_owned());
+        match *self {
+            Self::Direct { technique, light_samples, bsdf_samples, surface, choice, sobol } => {
+                let (technique, heuristic) = technique_flags(technique);
+                let mut flags = vec![("technique", technique.to_owned())];
+                flags.extend(heuristic.map(|h| ("heuristic", h.to_owned())));
+                flags.push(("light-samples", light_samples.to_string()));
+                flags.push(("bsdf-samples", bsdf_samples.to_string()));
+                flags.push(("lights", surface_flag(surface).to_owned()));
+                flags.push(("choose", choice.to_string()));
+                flags.push(sequence(sobol));
+                flags
+            }
+            Self::Occlusion { reach, sobol } => vec![
+                ("technique", "occlusion".to_owned()),
+                ("occlusion-distance", reach.to_string()),
+                sequence(sobol),
+            ],
+        }
+    }
+}
+
+/// As they are typed.
+const fn technique_flags(technique: Combine) -> (&'static str, Option<&'static str>) {
+    match technique {
+        Combine::Light => ("light", None),
+        Combine::Bsdf => ("bsdf", None),
+        Combine::Mis(weights) => ("mis", Some(weights_flag(weights))),
+        Combine::Auto(weights) => ("auto", Some(weights_flag(weights))),
+    }
+}
+
+/// As it is typed.
+const fn weights_flag(weights: Weights) -> &'static str {
+    match weights {
+        Weights::Balance => "balance",
+        Weights::Power => "power",
+    }
+}
+
+/// As it is typed.
+const fn surface_flag(surface: SurfaceDensity) -> &'static str {
+    match surface {
+        SurfaceDensity::Area => "area",
+        SurfaceDensity::SolidAngle => "solid-angle",
+    }
+}
+
+impl fmt::Display for Choice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::All => "all",
+            Self::Uniform => "uniform",
+            Self::Power => "power",
+        })
+    }
+}

@@ -1,0 +1,105 @@
+//! What is shown on a terminal while it works; nothing where stderr is no terminal.
+
+use crate::driver::Event;
+use crate::number::{duration, percent};
+use console::Term;
+use indicatif::{ProgressBar, ProgressState, ProgressStyle};
+use std::fmt::Write;
+use std::time::Duration;
+
+/// How often a step that cannot tell how far it is shows that it is alive.
+const TICK: Duration = Duration::from_millis(120);
+
+/// Columns for the words beside the bar, and for a ^C.
+const WORDS: usize = 56;
+
+/// Shows that a step is under way until it is dropped.
+#[derive(Debug)]
+pub(crate) struct Step(ProgressBar);
+
+impl Step {
+    /// Begins a step, for example "reading scene.xml"; in silence when `quiet`.
+    pub(crate) fn begin(what: impl Into<String>, quiet: bool) -> Self {
+        if quiet {
+            return Self(ProgressBar::hidden());
+        }
+        let bar = ProgressBar::new_spinner().with_message(what.into());
+        bar.set_style(style("{spinner} {wide_msg}").tick_chars("·•● "));
+        bar.enable_steady_tick(TICK);
+        Self(bar)
+    }
+}
+
+impl Drop for Step {
+    fn drop(&mut self) {
+        self.0.finish_and_clear();
+    }
+}
+
+/// The bar of a render.
+#[derive(Debug)]
+pub(crate) struct RenderBar {
+    bar: ProgressBar,
+    samples_per_pixel: u32,
+}
+
+impl RenderBar {
+    /// A bar for so many pixels and samples; invisible when `quiet`.
+    pub(crate) fn new(pixels: u64, samples_per_pixel: u32, quiet: bool) -> Self {
+        let bar = if quiet {
+            ProgressBar::hidden()
+        } else {
+            ProgressBar::new(pixels * u64::from(samples_per_pixel))
+        };
+        let template = format!("{{percent:>3}} %  {}{{left}}{{wide_msg}}", graphic());
+        bar.set_style(style(&template).progress_chars("██░").with_key("left", left));
+        bar.set_message(message(0, samples_per_pixel, None));
+        bar.enable_steady_tick(TICK);
+        Self { bar, samples_per_pixel }
+    }
+
+    /// Takes in what has happened.
+    pub(crate) fn show(&self, event: Event) {
+        match event {
+            Event::Samples(n) => self.bar.inc(n),
+            Event::Pass { samples, error } => {
+                self.bar.set_message(message(samples, self.samples_per_pixel, error));
+            }
+        }
+    }
+}
+
+impl Drop for RenderBar {
+    fn drop(&mut self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+/// The bar itself, as wide as leaves room for the words. The line must not reach the right margin:
+/// the ^C that the terminal prints after it would begin a line of its own.
+fn graphic() -> String {
+    let columns = Term::stderr().size_checked().map_or(80, |(_, columns)| usize::from(columns));
+    match columns.saturating_sub(WORDS).min(30) {
+        0..6 => String::new(),
+        width => format!("{{bar:{width}}}  "),
+    }
+}
+
+/// "4 of 64 spp  error 1.8 %".
+fn message(samples: u32, of: u32, error: Option<f64>) -> String {
+    let error = error.map_or_else(String::new, |e| format!("  error {}", percent(e)));
+    format!("{samples} of {of} spp{error}")
+}
+
+/// "12 s left  ".
+fn left(state: &ProgressState, text: &mut dyn Write) {
+    let _ = match state.eta().as_secs_f64() {
+        seconds if seconds > 0.0 => write!(text, "{} left  ", duration(seconds)),
+        _ => Ok(()),
+    };
+}
+
+/// A style from one of the templates above.
+fn style(template: &str) -> ProgressStyle {
+    ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar())
+}

@@ -1,0 +1,159 @@
+//! What is said about a render when it is done.
+
+use crate::number::{counted, duration, percent, with_prefix};
+use serde_json::{Value, json};
+use std::path::PathBuf;
+
+/// Where the time went [s].
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Seconds {
+    /// Reading the scene.
+    pub(crate) load: f64,
+    /// Building tree and tables.
+    pub(crate) build: f64,
+    /// Taking samples.
+    pub(crate) render: f64,
+    /// Encoding and writing the picture.
+    pub(crate) save: f64,
+}
+
+/// A finished render in numbers.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Report {
+    /// The picture's file.
+    pub(crate) file: PathBuf,
+    /// Name of the scene.
+    pub(crate) scene: String,
+    /// Columns and rows of the picture that was written.
+    pub(crate) size: (u32, u32),
+    /// Fewest and most samples of a pixel.
+    pub(crate) samples_per_pixel: (u32, u32),
+    /// Samples in all.
+    pub(crate) samples: u64,
+    /// Triangles in the scene.
+    pub(crate) triangles: u64,
+    /// Lights in the scene, each emitting triangle counted.
+    pub(crate) lights: u64,
+    /// Where the time went.
+    pub(crate) seconds: Seconds,
+    /// Estimated relative error; `None` while unknown.
+    pub(crate) error: Option<f64>,
+    /// Samples that were no numbers to use.
+    pub(crate) rejected: u64,
+    /// Stopped by the user before its end.
+    pub(crate) interrupted: bool,
+    /// The random numbers' seed.
+    pub(crate) seed: u32,
+    /// Threads that worked.
+    pub(crate) threads: usize,
+    /// Choices by the names of their flags.
+    pub(crate) choices: Vec<(&'static str, String)>,
+    /// What was remarkable.
+    pub(crate) warnings: Vec<String>,
+}
+
+impl Report {
+    /// Samples per second of rendering.
+    fn rate(&self) -> f64 {
+        // A clock that has not moved is no reason for an infinity.
+        self.samples as f64 / self.seconds.render.max(1e-9)
+    }
+
+    /// "64 samples/pixel", or "3 to 4 samples/pixel" after an interrupt.
+    pub(crate) fn samples_per_pixel(&self) -> String {
+        match self.samples_per_pixel {
+            (1, 1) => "1 sample/pixel".to_owned(),
+            (fewest, most) if fewest == most => format!("{most} samples/pixel"),
+            (fewest, most) => format!("{fewest} to {most} samples/pixel"),
+        }
+    }
+
+    /// One line for people.
+    pub(crate) fn line(&self) -> String {
+        let (width, height) = self.size;
+        let error =
+            self.error.map_or_else(|| "error unknown".to_owned(), |e| format!("error {}", percent(e)));
+        [
+            self.file.display().to_string(),
+            format!("{width}×{height}"),
+            self.samples_per_pixel(),
+            counted(self.triangles, "triangle"),
+            counted(self.lights, "light"),
+            duration(self.seconds.render),
+            format!("{} samples/s", with_prefix(self.rate())),
+            error,
+        ]
+        .join("  ")
+    }
+
+    /// One object for scripts.
+    pub(crate) fn json(&self) -> Value {
+        let choices: serde_json::Map<_, _> =
+            self.choices.iter().map(|(flag, value)| ((*flag).to_owned(), json!(value))).collect();
+        json!({
+            "file": self.file.to_string_lossy(),
+            "scene": self.scene,
+            "width": self.size.0,
+            "height": self.size.1,
+            "samples_per_pixel": { "min": self.samples_per_pixel.0, "max": self.samples_per_pixel.1 },
+            "samples": self.samples,
+            "samples_per_second": self.rate(),
+            "relative_error": self.error,
+            "rejected_samples": self.rejected,
+            "triangles": self.triangles,
+            "lights": self.lights,
+            "seconds": {
+                "load": self.seconds.load,
+                "build": self.seconds.build,
+                "render": self.seconds.render,
+                "save": self.seconds.save,
+            },
+            "seed": self.seed,
+            "threads": self.threads,
+            "choices": choices,
+            "interrupted": self.interrupted,
+            "warnings": self.warnings,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn report() -> Report {
+        Report {
+            file: "halflight.png".into(),
+            scene: "still-life".into(),
+            size: (960, 640),
+            samples_per_pixel: (64, 64),
+            samples: 39_321_600,
+            triangles: 24_812,
+            lights: 1,
+            seconds: Seconds { render: 2.1, ..Seconds::default() },
+            error: Some(0.0098),
+            rejected: 0,
+            interrupted: false,
+            seed: 0,
+            threads: 2,
+            choices: vec![("sequence", "sobol".to_owned())],
+            warnings: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn the_line_holds_everything() {
+        assert_eq!(
+            report().line(),
+            "halflight.png  960×640  64 samples/pixel  24 812 triangles  1 light  2.1 s  18.7 M samples/s  error 0.98 %"
+        );
+    }
+
+    #[test]
+    fn an_unknown_error_is_said_to_be_so() {
+        let report = Report { error: None, samples_per_pixel: (1, 2), ..report() };
+        assert!(report.line().ends_with("error unknown"));
+        assert!(report.line().contains("1 to 2 samples/pixel"));
+        assert!(report.json()["relative_error"].is_null());
+    }
+}

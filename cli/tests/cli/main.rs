@@ -1,0 +1,11 @@
+//! The program from end to end: what is typed, what is printed, what lies in the folder afterwards.
+
+mod bad_input;
+mod bits;
+mod compare;
+mod disk;
+mod help;
+#[cfg(unix)]
+mod interrupt;
+mod results;
+mod support;
