@@ -7,7 +7,6 @@
 pub mod builtin;
 mod error;
 mod export;
-
 mod mesh;
 mod mesh_error;
 mod mitsuba;
@@ -16,7 +15,6 @@ mod ply;
 mod suggest;
 
 pub use error::{LoadError, Position, Problem, Warning};
-
 pub use export::{ExportError, export_mitsuba};
 pub use mesh_error::MeshError;
 

@@ -127,9 +127,11 @@ fn broken(definition: &ElementDef, i: usize, e: &ParseError) -> MeshError {
     MeshError::Malformed { line: None, what }
 }
 
-/// The parser's messages repeat the input on further lines.
+/// What is wrong, without the number of the line, which stands before it, and the input, which the
+/// parser repeats on further lines.
 fn first_line(text: &str) -> String {
-    text.lines().next().unwrap_or_default().to_string()
+    let line = text.lines().next().unwrap_or_default();
+    line.strip_prefix("Line ").and_then(|l| l.split_once(": ")).map_or(line, |(_, what)| what).to_string()
 }
 
 fn read_vertices<R: BufRead>(
@@ -354,7 +356,8 @@ mod tests {
         let text = format!("ply\nformat binary_little_endian 1.0\n{HEADER}{}\x03", "\0".repeat(36));
         let error = parse_text(&text).unwrap_err();
         assert!(error.to_string().contains("ends in face 0 of 1"), "{error}");
-        assert!(parse_text("ply\nformat ascii 1.0\n").is_err());
+        let error = parse_text("ply\nformat ascii 1.0\n").unwrap_err();
+        assert!(error.to_string().starts_with("line 3: Unexpected end of file"), "{error}");
         assert!(parse_text("").is_err());
     }
 

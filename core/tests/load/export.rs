@@ -4,6 +4,7 @@ use crate::folder;
 use halflight::build::{Description, Geometry, Mesh, Object};
 use halflight::film::Filter;
 use halflight::glam::Vec3;
+use halflight::load::builtin::{BUILTIN, builtin};
 use halflight::load::{ExportError, LoadOptions, export_mitsuba, load};
 use halflight::shape::{AnyShape, Triangle};
 use std::fs;
@@ -67,6 +68,32 @@ fn everything_comes_back_to_the_last_bit() {
     let path = folder("roundtrip-out").join("out.xml");
     export_mitsuba(&description, &path).unwrap();
     assert_same(&read(&path), &description);
+}
+
+#[test]
+fn every_built_in_scene_comes_back() {
+    for name in BUILTIN.map(|b| b.name) {
+        let description = builtin(name).unwrap();
+        let path = folder(name).join("out.xml");
+        export_mitsuba(&description, &path).unwrap();
+        let again = read(&path);
+        assert_eq!(again.camera, description.camera, "{name}");
+        assert_eq!(
+            (again.width, again.height, again.filter),
+            (description.width, description.height, description.filter)
+        );
+        assert_eq!(again.lights, description.lights);
+        assert_eq!(again.objects.len(), description.objects.len());
+        for (a, b) in again.objects.iter().zip(&description.objects) {
+            assert_eq!(
+                again.materials[a.material].bsdf, description.materials[b.material].bsdf,
+                "{name}: {}",
+                b.name
+            );
+            assert_eq!(a.emission, b.emission, "{name}: {}", b.name);
+            assert!(a.geometry == b.geometry, "{name}: {}", b.name);
+        }
+    }
 }
 
 #[test]

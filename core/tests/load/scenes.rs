@@ -117,7 +117,12 @@ fn emission_goes_with_the_shape_and_its_material() {
     assert_eq!(lamp.emission.map(|e| (e.radiance, e.two_sided)), Some((Rgb::new(1.0, 2.0, 3.0), true)));
     assert_eq!(description.materials[lamp.material].name, "glass");
     assert_eq!(description.objects[1].emission.map(|e| (e.radiance, e.two_sided)), Some((Rgb::WHITE, false)));
-    assert_eq!(description.objects[1].name, "sphere");
+    let sphere = &description.objects[1];
+    assert_eq!(sphere.name, "sphere");
+    assert!(
+        description.materials[sphere.material].bsdf.front.is_black(),
+        "a light without a material, as in Mitsuba"
+    );
 }
 
 #[test]

@@ -73,10 +73,10 @@ struct Axes {
 impl Axes {
     fn new(at: &Element, m: &DMat4) -> Result<Self, LoadError> {
         let columns = [m.x_axis, m.y_axis, m.z_axis].map(|c| c.truncate());
-        let lengths = DVec3::from_array(columns.map(DVec3::length));
-        // Axes of unit length stay as they are, to the last bit.
-        let unit = |v: DVec3| if (v.length() - 1.0).abs() < 1e-6 { v } else { v.normalize_or_zero() };
-        let units = columns.map(unit);
+        // Axes of unit length in single precision stay as they are, to the last bit.
+        let length = |v: DVec3| if (v.length() - 1.0).abs() < 1e-6 { 1.0 } else { v.length() };
+        let lengths = DVec3::from_array(columns.map(length));
+        let units = columns.map(|v| if length(v) == 1.0 { v } else { v.normalize_or_zero() });
         let skew = [(0, 1), (0, 2), (1, 2)].map(|(i, j)| units[i].dot(units[j]).abs());
         if lengths.min_element() > 0.0 && skew.iter().all(|s| *s < RIGID) {
             return Ok(Self { lengths, units });
