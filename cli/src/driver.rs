@@ -85,7 +85,7 @@ fn merged(sums: Vec<DifferenceSums>) -> DifferenceSums {
     })
 }
 
-/// Side of a tile [pixels]: with many samples per pixel, smaller tiles, so that stopping at the next
+/// Side of a tile in pixels: with many samples per pixel, smaller tiles, so that stopping at the next
 /// one does not take long.
 const fn side(samples: u32) -> u32 {
     match samples {

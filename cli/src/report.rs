@@ -4,7 +4,7 @@ use crate::number::{counted, duration, percent, with_prefix};
 use serde_json::{Value, json};
 use std::path::PathBuf;
 
-/// Where the time went [s].
+/// Where the time went, in seconds.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Seconds {
     /// Reading the scene.

@@ -17,7 +17,7 @@ struct Measures {
     rmse: f64,
     /// Mean squared difference, relative.
     relmse: f64,
-    /// Of the pictures as shown [dB]; infinite for equal ones.
+    /// Of the pictures as shown, in decibels; infinite for equal ones.
     psnr: f64,
     /// Mean over mean; `None` where the reference is black.
     mean_ratio: Option<f64>,

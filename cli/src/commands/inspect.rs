@@ -114,6 +114,7 @@ fn table(
     plan: Option<&Plan>,
 ) -> String {
     let stats = buffers.stats();
+    let left_out = left_out(buffers.scene(), plan);
     let samples = description.samples_per_pixel.map_or_else(
         || "not said by the scene".to_owned(),
         |n| format!("{} per pixel, says the scene", grouped(u64::from(n))),
@@ -132,7 +133,7 @@ fn table(
         ("tree", format!("{}, stack {} of {STACK}", counted(stats.nodes as u64, "node"), stats.stack)),
         ("memory", format!("{} scene, {} film", bytes(stats.bytes as u64), bytes(film_bytes(description)))),
         ("auto takes", plan.map_or_else(|| "nothing: there is no light".to_owned(), choices)),
-        ("left out", left_out(buffers.scene(), plan).join(BREAK)),
+        ("left out", if left_out.is_empty() { "nothing".to_owned() } else { left_out.join(BREAK) }),
     ];
     rows.iter().map(|(name, value)| format!("{name:10}  {value}")).collect::<Vec<_>>().join("\n")
 }
