@@ -5,6 +5,7 @@
 mod error;
 mod node;
 mod query;
+mod slabs;
 
 pub use error::BvhError;
 pub use node::{Child, MAX_LEAF, MAX_PRIMITIVES, Node, WIDTH};

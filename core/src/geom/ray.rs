@@ -34,21 +34,19 @@ impl Ray {
     }
 }
 
-/// A ray with everything that box and triangle tests need more than once.
-///
-/// The three rows map a point relative to the origin into the sheared space of Woop, Benthin and
-/// Wald 2013, *Watertight Ray/Triangle Intersection*, JCGT 2(1), section 3.1, in which the ray is
-/// the `+z` axis of unit length. Rows with literal ones and zeros give the same sums as the
-/// paper's permuted indices, without indexing by a variable.
+/// A ray with everything that a triangle test needs more than once: the axes and the shear of Woop,
+/// Benthin and Wald 2013, *Watertight Ray/Triangle Intersection*, JCGT 2(1), section 3.1, that turn
+/// the ray into the `+z` axis of unit length.
 #[derive(Debug, Clone, Copy)]
 pub struct PreparedRay {
     /// The ray itself.
     pub ray: Ray,
-    /// Reciprocal of the direction; infinite where a component is 0.
-    pub inverse: Vec3,
-    pub(crate) row_x: Vec3,
-    pub(crate) row_y: Vec3,
-    pub(crate) row_z: Vec3,
+    /// The axes that become x, y and z; z is the one along which the direction is largest.
+    pub(crate) axes: [usize; 3],
+    /// The origin along those axes.
+    pub(crate) origin: [f32; 3],
+    /// What is taken from x and y, and the factor of z, per unit of z.
+    pub(crate) shear: [f32; 3],
 }
 
 impl PreparedRay {
@@ -56,25 +54,17 @@ impl PreparedRay {
     #[inline]
     #[must_use]
     pub fn new(ray: Ray) -> Self {
-        let d = ray.direction;
-        let a = d.abs();
-        // The largest component becomes z; x and y follow in cyclic order, exchanged when z is
-        // negative so that the winding is kept.
-        let (ex, ey, ez, dx, dy, dz) = if a.z >= a.x && a.z >= a.y {
-            (Vec3::X, Vec3::Y, Vec3::Z, d.x, d.y, d.z)
+        let (o, d, a) = (ray.origin.to_array(), ray.direction.to_array(), ray.direction.abs());
+        // The others follow in cyclic order, exchanged when z is negative so that winding is kept.
+        let [x, y, z] = if a.z >= a.x && a.z >= a.y {
+            [0, 1, 2]
         } else if a.x >= a.y {
-            (Vec3::Y, Vec3::Z, Vec3::X, d.y, d.z, d.x)
+            [1, 2, 0]
         } else {
-            (Vec3::Z, Vec3::X, Vec3::Y, d.z, d.x, d.y)
+            [2, 0, 1]
         };
-        let (ex, ey, dx, dy) = if dz < 0.0 { (ey, ex, dy, dx) } else { (ex, ey, dx, dy) };
-        let scale = 1.0 / dz;
-        Self {
-            ray,
-            inverse: d.recip(),
-            row_x: ex - ez * (dx * scale),
-            row_y: ey - ez * (dy * scale),
-            row_z: ez * scale,
-        }
+        let (x, y) = if d[z] < 0.0 { (y, x) } else { (x, y) };
+        let scale = 1.0 / d[z];
+        Self { ray, axes: [x, y, z], origin: [o[x], o[y], o[z]], shear: [d[x] * scale, d[y] * scale, scale] }
     }
 }

@@ -8,9 +8,8 @@ use glam::Vec3;
 /// A triangle. Its normal is `(b − a) × (c − a)`: counter-clockwise corners face the viewer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Triangle {
-    a: Vec3,
-    b: Vec3,
-    c: Vec3,
+    /// The x of the three corners, then their y and z: a ray looks at them axis by axis.
+    axes: [Vec3; 3],
 }
 
 impl Triangle {
@@ -22,7 +21,7 @@ impl Triangle {
         if !(a.is_finite() && b.is_finite() && c.is_finite()) {
             return Err(ShapeError::NotFinite { field: "a corner" });
         }
-        let triangle = Self { a, b, c };
+        let triangle = Self::from_corners([a, b, c]);
         let area = triangle.area();
         if !(area > 0.0 && area < f32::INFINITY) || unit(triangle.cross()).is_none() {
             return Err(ShapeError::Degenerate { what: "area in m²", value: area });
@@ -33,7 +32,12 @@ impl Triangle {
     /// The corners (m).
     #[must_use]
     pub const fn corners(&self) -> [Vec3; 3] {
-        [self.a, self.b, self.c]
+        let [x, y, z] = self.axes;
+        [Vec3::new(x.x, y.x, z.x), Vec3::new(x.y, y.y, z.y), Vec3::new(x.z, y.z, z.z)]
+    }
+
+    const fn from_corners([a, b, c]: [Vec3; 3]) -> Self {
+        Self { axes: [Vec3::new(a.x, b.x, c.x), Vec3::new(a.y, b.y, c.y), Vec3::new(a.z, b.z, c.z)] }
     }
 
     /// Unit normal.
@@ -46,14 +50,16 @@ impl Triangle {
     /// The same triangle facing the other way.
     #[must_use]
     pub const fn flipped(self) -> Self {
-        Self { b: self.c, c: self.b, ..self }
+        let [a, b, c] = self.corners();
+        Self::from_corners([a, c, b])
     }
 
     /// The point with barycentric coordinates `1 − b1 − b2`, `b1`, `b2`.
     #[inline]
     #[must_use]
     pub fn point(&self, b1: f32, b2: f32) -> SurfacePoint {
-        let (pa, pb, pc) = (self.a * (1.0 - b1 - b2), self.b * b1, self.c * b2);
+        let [a, b, c] = self.corners();
+        let (pa, pb, pc) = (a * (1.0 - b1 - b2), b * b1, c * b2);
         SurfacePoint {
             point: pa + pb + pc,
             error: (pa.abs() + pb.abs() + pc.abs()) * num::gamma(8),
@@ -65,7 +71,8 @@ impl Triangle {
     #[inline]
     #[must_use]
     pub fn coordinates(&self, point: Vec3) -> (f32, f32) {
-        let (e1, e2, r) = (self.b - self.a, self.c - self.a, point - self.a);
+        let [a, b, c] = self.corners();
+        let (e1, e2, r) = (b - a, c - a, point - a);
         let n = e1.cross(e2);
         let n2 = n.length_squared();
         (r.cross(e2).dot(n) / n2, e1.cross(r).dot(n) / n2)
@@ -73,7 +80,8 @@ impl Triangle {
 
     #[inline]
     fn cross(&self) -> Vec3 {
-        (self.b - self.a).cross(self.c - self.a)
+        let [a, b, c] = self.corners();
+        (b - a).cross(c - a)
     }
 }
 
@@ -81,15 +89,14 @@ impl Triangle {
 ///
 /// Source: Woop, Benthin, Wald 2013, section 3.3.
 #[cold]
-fn edges_in_double(a: Vec3, b: Vec3, c: Vec3) -> Vec3 {
-    let edge = |p: Vec3, q: Vec3| (f64::from(p.x) * f64::from(q.y) - f64::from(p.y) * f64::from(q.x)) as f32;
-    Vec3::new(edge(c, b), edge(a, c), edge(b, a))
+fn edges_in_double(x: Vec3, y: Vec3) -> Vec3 {
+    y.as_dvec3().cross(x.as_dvec3()).as_vec3()
 }
 
 impl Shape for Triangle {
     #[inline]
     fn bounds(&self) -> Aabb {
-        Aabb::around(&[self.a, self.b, self.c])
+        Aabb::around(&self.corners())
     }
 
     #[inline]
@@ -101,13 +108,13 @@ impl Shape for Triangle {
     /// appendix A; bound on `t` after Pharr, Jakob, Humphreys 2023, section 6.8.7.
     #[inline]
     fn intersect(&self, ray: &PreparedRay, t_max: f32) -> Option<ShapeHit> {
-        let o = ray.ray.origin;
-        let (ra, rb, rc) = (self.a - o, self.b - o, self.c - o);
-        let shear = |r: Vec3| Vec3::new(r.dot(ray.row_x), r.dot(ray.row_y), r.dot(ray.row_z));
-        let (a, b, c) = (shear(ra), shear(rb), shear(rc));
-        let mut e = Vec3::new(c.x * b.y - c.y * b.x, a.x * c.y - a.y * c.x, b.x * a.y - b.y * a.x);
+        // The corners relative to the origin, axis by axis, in the sheared space of the ray.
+        let along = self.axes[ray.axes[2]] - ray.origin[2];
+        let x = self.axes[ray.axes[0]] - ray.origin[0] - along * ray.shear[0];
+        let y = self.axes[ray.axes[1]] - ray.origin[1] - along * ray.shear[1];
+        let mut e = y.cross(x);
         if e.x == 0.0 || e.y == 0.0 || e.z == 0.0 {
-            e = edges_in_double(a, b, c);
+            e = edges_in_double(x, y);
         }
         let some_negative = e.x < 0.0 || e.y < 0.0 || e.z < 0.0;
         let some_positive = e.x > 0.0 || e.y > 0.0 || e.z > 0.0;
@@ -116,8 +123,9 @@ impl Shape for Triangle {
             return None;
         }
         let scale = 1.0 / det;
-        let t = (e.x * a.z + e.y * b.z + e.z * c.z) * scale;
-        if !(t > 0.0 && t < t_max) || t <= t_error(a, b, c, e, scale) {
+        let z = along * ray.shear[2];
+        let t = e.dot(z) * scale;
+        if !(t > 0.0 && t < t_max) || t <= t_error(x, y, z, e, scale) {
             return None;
         }
         Some(ShapeHit { t, u: e.y * scale, v: e.z * scale })
@@ -131,8 +139,8 @@ impl Shape for Triangle {
 
 /// Bound on the error of `t`: a hit nearer than this may in truth be behind the origin.
 #[inline]
-fn t_error(a: Vec3, b: Vec3, c: Vec3, e: Vec3, scale: f32) -> f32 {
-    let max = a.abs().max(b.abs()).max(c.abs());
+fn t_error(x: Vec3, y: Vec3, z: Vec3, e: Vec3, scale: f32) -> f32 {
+    let max = Vec3::new(x.abs().max_element(), y.abs().max_element(), z.abs().max_element());
     let delta = Vec3::new(num::gamma(5), num::gamma(5), num::gamma(3)) * (max + Vec3::new(max.z, max.z, 0.0));
     let delta_e = 2.0 * (num::gamma(2) * max.x * max.y + delta.y * max.x + delta.x * max.y);
     let max_e = e.abs().max_element();

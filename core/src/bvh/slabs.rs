@@ -1,0 +1,81 @@
+//! The slab test of a ray against the four boxes of a node.
+
+use super::node::{Node, WIDTH};
+use crate::geom::Ray;
+use crate::num;
+use glam::Vec4;
+
+/// How much farther than computed a box may reach: the rounding of its three slabs, so that a ray
+/// that grazes a box still enters it. Source: Ize 2013, *Robust BVH Ray Traversal*, JCGT 2(2).
+const FAR_SLACK: f32 = 1.0 + 2.0 * num::gamma(3);
+
+/// A direction component below this counts as 0: its reciprocal would overflow.
+const PARALLEL: f32 = 1e-37;
+
+/// Stands for the reciprocal of 0: finite, so that no product with it is NaN, and so large that
+/// any distance times it is beyond every scene.
+const STEEP: f32 = 1e38;
+
+/// How far a slab is widened for a ray along it (m): nothing beside any coordinate but 0.
+const WIDENED: f32 = 1e-20;
+
+/// A ray as the slab test wants it.
+pub(super) struct Slabs {
+    /// Which plane of each axis is met first, and which last, as rows of the node.
+    near: [usize; 3],
+    far: [usize; 3],
+    near_origin: [Vec4; 3],
+    far_origin: [Vec4; 3],
+    near_inverse: [Vec4; 3],
+    far_inverse: [Vec4; 3],
+}
+
+/// The children that a ray enters: a bit for each, and the distances.
+pub(super) struct Entered {
+    pub(super) mask: u32,
+    pub(super) near: [f32; WIDTH],
+}
+
+impl Slabs {
+    #[inline]
+    pub(super) fn new(ray: &Ray) -> Self {
+        let mut slabs = Self {
+            near: [0; 3],
+            far: [0; 3],
+            near_origin: [Vec4::ZERO; 3],
+            far_origin: [Vec4::ZERO; 3],
+            near_inverse: [Vec4::ZERO; 3],
+            far_inverse: [Vec4::ZERO; 3],
+        };
+        let (origin, direction) = (ray.origin.to_array(), ray.direction.to_array());
+        for axis in 0..3 {
+            let (o, d) = (origin[axis], direction[axis]);
+            // A ray along a slab is inside it or not; widened, it is inside up to its very faces.
+            let along = d.abs() < PARALLEL;
+            let inverse = if along { STEEP } else { 1.0 / d };
+            let pad = if along { o.abs() * f32::EPSILON + WIDENED } else { 0.0 };
+            let backward = inverse < 0.0;
+            slabs.near[axis] = if backward { axis + 3 } else { axis };
+            slabs.far[axis] = if backward { axis } else { axis + 3 };
+            slabs.near_origin[axis] = Vec4::splat(o + pad);
+            slabs.far_origin[axis] = Vec4::splat(o - pad);
+            slabs.near_inverse[axis] = Vec4::splat(inverse);
+            slabs.far_inverse[axis] = Vec4::splat(inverse * FAR_SLACK);
+        }
+        slabs
+    }
+
+    /// Which children the ray enters before `t_max`. Nothing here can be NaN, so that the minima and
+    /// maxima mean the same on every target.
+    #[inline(always)]
+    pub(super) fn enter(&self, node: &Node, t_max: f32) -> Entered {
+        let (mut enter, mut leave) = (Vec4::ZERO, Vec4::splat(t_max));
+        for axis in 0..3 {
+            let near = Vec4::from_array(node.planes[self.near[axis]]);
+            let far = Vec4::from_array(node.planes[self.far[axis]]);
+            enter = enter.max((near - self.near_origin[axis]) * self.near_inverse[axis]);
+            leave = leave.min((far - self.far_origin[axis]) * self.far_inverse[axis]);
+        }
+        Entered { mask: enter.cmple(leave).bitmask(), near: enter.to_array() }
+    }
+}
