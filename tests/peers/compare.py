@@ -53,6 +53,12 @@ def read_exr(mitsuba, path):
     return np.array(bitmap, dtype=np.float64)
 
 
+def rounding_step(mitsuba, path):
+    """Largest relative error of the numbers in a file."""
+    half = mitsuba.Bitmap(path).component_format() == mitsuba.Struct.Type.Float16
+    return 2.0**-11 if half else 2.0**-24
+
+
 def with_halflight(options, mitsuba, scene, seed):
     with tempfile.TemporaryDirectory() as folder:
         out = os.path.join(folder, "out.exr")
@@ -113,21 +119,23 @@ def pixel_variance(images):
     return np.var([image.mean(-1) for image in images], axis=0, ddof=1)
 
 
-def block_differences(images, reference, reference_variance):
+def block_differences(images, reference, reference_variance, rounding):
     """Differences of blocks to the reference in standard errors."""
     grey = reference.mean(-1)
     difference = blocks(np.mean([image.mean(-1) for image in images], axis=0) - grey)
-    # The reference is noisy too, and rounded to half floats: a step of 2^-11 at most.
-    rounding = (grey * 2.0**-11) ** 2 / 12.0
-    variance = blocks(pixel_variance(images) / len(images) + reference_variance + rounding)
-    return difference / np.sqrt(np.maximum(variance, 1e-18))
+    # The reference is noisy too, and rounded: where it is smooth, all pixels of a block alike.
+    variance = blocks(pixel_variance(images) / len(images) + reference_variance)
+    variance += (blocks(grey) * rounding) ** 2 / 3.0
+    # What few samples have missed altogether has no spread; a ten-thousandth is no difference.
+    variance += (blocks(grey + 0.01) * 1e-4) ** 2
+    return difference / np.sqrt(variance)
 
 
-def measure(results, reference, reference_variance):
+def measure(results, reference, reference_variance, rounding):
     images = [image for image, _ in results]
     error = float(np.mean([relative_error(image, reference) for image in images]))
     seconds = float(np.mean([seconds for _, seconds in results]))
-    z = block_differences(images, reference, reference_variance)
+    z = block_differences(images, reference, reference_variance, rounding)
     worst = np.unravel_index(np.argmax(np.abs(z)), z.shape)
     return {
         "relMSE": error,
@@ -148,15 +156,17 @@ def compare(options, mitsuba, name):
     if not os.path.exists(path):
         image, _ = peers["mis"].render(options.reference_spp, 77)
         mitsuba.Bitmap(image.astype(np.float32)).write(path)
-    reference = read_exr(mitsuba, path)
+    reference, rounding = read_exr(mitsuba, path), rounding_step(mitsuba, path)
 
     seeds = range(1, options.seeds + 1)
-    pictures = {f"mitsuba {technique}": [peer.render(options.spp, seed) for seed in seeds] for technique, peer in peers.items()}
+    pictures = {
+        f"mitsuba {technique}": [peer.render(options.spp, seed) for seed in seeds] for technique, peer in peers.items()
+    }
     by_mis = [image for image, _ in pictures["mitsuba mis"]]
     reference_variance = pixel_variance(by_mis) * options.spp / options.reference_spp
     pictures["halflight"] = [with_halflight(options, mitsuba, scene, seed) for seed in seeds]
 
-    rows = {who: measure(results, reference, reference_variance) for who, results in pictures.items()}
+    rows = {who: measure(results, reference, reference_variance, rounding) for who, results in pictures.items()}
     best = max(row["efficiency"] for who, row in rows.items() if who != "halflight")
     for who, row in rows.items():
         yield {"scene": name, "who": who, **row, "ratio": row["efficiency"] / best}
