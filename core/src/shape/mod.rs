@@ -86,6 +86,13 @@ macro_rules! each_shape {
     };
 }
 
+impl AnyShape {
+    #[inline(never)]
+    fn intersect_out_of_line(&self, ray: &PreparedRay, t_max: f32) -> Option<ShapeHit> {
+        each_shape!(self, s => s.intersect(ray, t_max))
+    }
+}
+
 impl Shape for AnyShape {
     #[inline]
     fn bounds(&self) -> Aabb {
@@ -97,9 +104,13 @@ impl Shape for AnyShape {
         each_shape!(self, s => s.area())
     }
 
-    #[inline]
+    // Most of what rays are tested against are triangles: they are tested in line.
+    #[inline(always)]
     fn intersect(&self, ray: &PreparedRay, t_max: f32) -> Option<ShapeHit> {
-        each_shape!(self, s => s.intersect(ray, t_max))
+        match self {
+            Self::Triangle(triangle) => triangle.intersect(ray, t_max),
+            other => other.intersect_out_of_line(ray, t_max),
+        }
     }
 
     #[inline]

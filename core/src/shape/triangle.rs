@@ -106,7 +106,7 @@ impl Shape for Triangle {
 
     /// Source: Woop, Benthin, Wald 2013, *Watertight Ray/Triangle Intersection*, JCGT 2(1),
     /// appendix A; bound on `t` after Pharr, Jakob, Humphreys 2023, section 6.8.7.
-    #[inline]
+    #[inline(always)]
     fn intersect(&self, ray: &PreparedRay, t_max: f32) -> Option<ShapeHit> {
         // The corners relative to the origin, axis by axis, in the sheared space of the ray.
         let along = self.axes[ray.axes[2]] - ray.origin[2];
@@ -138,7 +138,7 @@ impl Shape for Triangle {
 }
 
 /// Bound on the error of `t`: a hit nearer than this may in truth be behind the origin.
-#[inline]
+#[inline(never)]
 fn t_error(x: Vec3, y: Vec3, z: Vec3, e: Vec3, scale: f32) -> f32 {
     let max = Vec3::new(x.abs().max_element(), y.abs().max_element(), z.abs().max_element());
     let delta = Vec3::new(num::gamma(5), num::gamma(5), num::gamma(3)) * (max + Vec3::new(max.z, max.z, 0.0));
