@@ -7,7 +7,8 @@
 //! difference exaggerates. If doubling divides the variance by ρ, then
 //! `E (A − B)²/4 = (ρ − 1) Var M` (insert `Var A = Var B = ρ Var M` into
 //! `Var M = (Var A + Var B + 2 Cov)/4`); ρ = 2 for independent samples. The same holds one pass
-//! earlier, so ρ itself is the ratio of the differences of the last two passes. (Derived here.)
+//! earlier, so ρ itself is the ratio of the differences of successive passes. Nets of some sizes are
+//! better than their neighbours, so the mean ratio of the last three passes is taken. (Derived here.)
 
 /// Smallest and largest divisor of the variance per doubling: independent points, and the best that
 /// scrambled nets reach on smooth integrands (`n⁻³`).
@@ -48,9 +49,8 @@ impl DifferenceSums {
 /// The record of a picture's passes, and the error that follows from it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Convergence {
-    /// Mean squared difference of the last pass that doubled the samples, and of the one before.
-    last: Option<f64>,
-    previous: Option<f64>,
+    /// Mean squared differences of the last three passes that doubled the samples, newest first.
+    doublings: [Option<f64>; 3],
     /// Samples after the last doubling, and now.
     doubled_at: u32,
     samples: u32,
@@ -68,8 +68,8 @@ impl Convergence {
         let doubled = self.samples > 0 && samples >= 2 * self.samples;
         self.samples = samples;
         if let (true, Some(mean)) = (doubled, sums.mean()) {
-            self.previous = self.last;
-            self.last = Some(mean);
+            let [last, previous, _] = self.doublings;
+            self.doublings = [Some(mean), last, previous];
             self.doubled_at = samples;
         }
     }
@@ -78,11 +78,14 @@ impl Convergence {
     /// `None` before the second sample.
     #[must_use]
     pub fn relative_mse(&self) -> Option<f64> {
-        let last = self.last?;
-        let rate = match self.previous {
-            Some(previous) if last > 0.0 => (previous / last).clamp(RATE.0, RATE.1),
+        let [last, previous, earlier] = self.doublings;
+        let last = last?;
+        let rate = match (previous, earlier) {
+            (_, Some(earlier)) if last > 0.0 => libm::sqrt(earlier / last),
+            (Some(previous), None) if last > 0.0 => previous / last,
             _ => RATE.0,
         };
+        let rate = rate.clamp(RATE.0, RATE.1);
         // Samples since the last doubling count as independent ones.
         let since = f64::from(self.doubled_at) / f64::from(self.samples);
         Some(last / (rate - 1.0) * since)
@@ -117,7 +120,7 @@ mod tests {
                 let before = *pixel;
                 for sample in pass.clone() {
                     sequence.start(i as u32, sample);
-                    let u = sequence.point(Dimension::Film, 0, 1);
+                    let u = sequence.point(Dimension::Light(0), 0, 1);
                     pixel.add(Rgb::splat(f(i as f32 / 2048.0, u)));
                 }
                 if before.count() > 0 {

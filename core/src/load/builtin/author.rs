@@ -168,7 +168,8 @@ impl Author {
             camera,
             width,
             height,
-            filter: Filter::Gaussian { stddev: 0.5 },
+            // The pixel itself: a wider filter costs samples, and shows as noise along edges.
+            filter: Filter::PIXEL,
             integrator: IntegratorDescription::default(),
             samples_per_pixel: None,
             materials: self.materials,
