@@ -38,6 +38,8 @@ pub enum CameraError {
     Direction,
     /// The extent of the picture is not a positive finite number.
     Extent(f32),
+    /// The field of view (degrees) is not between 0 and 180.
+    FieldOfView(f32),
     /// The clipping distances are not `0 ≤ near < far`.
     Clip {
         /// Near distance (m).
@@ -55,6 +57,9 @@ impl fmt::Display for CameraError {
                 "the camera has no direction: origin and target must differ, and up must not be parallel to the view"
             ),
             Self::Extent(v) => write!(f, "the extent of the picture is {v}; it must be positive and finite"),
+            Self::FieldOfView(v) => {
+                write!(f, "the field of view is {v}°; it must be above 0° and below 180°")
+            }
             Self::Clip { near, far } => {
                 write!(f, "the clipping distances are {near} and {far}; they must satisfy 0 ≤ near < far")
             }

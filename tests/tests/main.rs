@@ -6,6 +6,7 @@ mod closed_forms;
 mod delta;
 mod estimators;
 mod lights;
+mod pictures;
 mod shapes;
 
 /// Every kind of light has its line in the conformance suite.

@@ -155,7 +155,7 @@ impl CameraDescription {
         let camera = match self.projection {
             ProjectionDescription::Perspective { fov, axis } => {
                 if !(fov > 0.0 && fov < 180.0) {
-                    return Err(CameraError::Extent(fov));
+                    return Err(CameraError::FieldOfView(fov));
                 }
                 let tangent = num::tan(0.5 * fov.to_radians());
                 let half_width = match axis {

@@ -7,7 +7,7 @@ use crate::shape::{Cylinder, SurfacePoint};
 use glam::Vec3;
 
 impl SampledShape for Cylinder {
-    /// Density `1 / (2π r l)` (m⁻²); `u[0]` is the height, `u(1)` the turn around the axis.
+    /// Density `1 / (2π r l)` (m⁻²); `u[0]` is the height, `u[1]` the turn around the axis.
     #[inline]
     fn sample_area(&self, u: [f32; 2]) -> SurfacePoint {
         let frame = Frame::from_normal(self.unit_axis());
