@@ -18,7 +18,8 @@
 //!
 //! The crate is `no_std` and allocates nothing: a [`Scene`] is a set of borrowed slices, traversal uses
 //! a stack of fixed size, and everything is generic over the kinds of shape, light and BSDF, so that a
-//! program links only what its scene holds. It computes the same bits on every target.
+//! program links only what its scene holds. Its arithmetic is the same on every target: no platform's
+//! libm, no fused multiply-add, a fixed order of sums.
 //!
 //! # A lamp over a floor, without a heap
 //!

@@ -34,3 +34,8 @@ macro_rules! ensure {
         }
     };
 }
+
+/// The README's code, compiled and run.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+struct Readme;
