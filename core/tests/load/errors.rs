@@ -142,7 +142,7 @@ fn quantities_that_nature_does_not_have_are_refused() {
         ),
         (
             "<sensor type=\"perspective\"><float name=\"fov\" value=\"180\"/></sensor>",
-            "extent of the picture",
+            "the field of view is 180°",
         ),
         (
             "<sensor type=\"perspective\"><float name=\"near_clip\" value=\"5\"/>\
