@@ -212,30 +212,50 @@ mod is_refused {
     }
 
     /// Four-wide chains: each level leaves three children waiting.
-    fn chain(levels: usize) -> Vec<Node> {
-        (0..levels)
-            .map(|i| {
-                let next = if i + 1 < levels { Child::Node(i as u32 + 1) } else { leaf(0, 1) };
-                node(&[leaf(0, 1), leaf(0, 1), next, leaf(0, 1)])
-            })
-            .collect()
+    /// A tree whose worst ray needs `entries` stack entries: at each level the way down, in a slot of
+    /// its own, and up to three nodes that wait beside it.
+    fn deep(entries: usize, down: usize) -> Vec<Node> {
+        let mut nodes = vec![Node::EMPTY];
+        let (mut at, mut left) = (0, entries);
+        while left > 0 {
+            let beside = left.min(3);
+            let mut slots = [Child::Empty; 4];
+            for slot in (0..4).filter(|&slot| slot != down).take(beside) {
+                slots[slot] = Child::Node(nodes.len() as u32);
+                nodes.push(node(&[leaf(0, 1)]));
+            }
+            slots[down] = Child::Node(nodes.len() as u32);
+            nodes[at] = node(&slots);
+            at = nodes.len();
+            nodes.push(node(&[leaf(0, 1)]));
+            left -= beside;
+        }
+        nodes
     }
 
     #[test]
     fn one_that_is_too_deep_for_the_stack_and_no_other() {
-        let deepest = halflight::bvh::STACK / 3;
-        let nodes = chain(deepest);
-        let bvh = Bvh::new(&nodes, 1).unwrap();
-        assert_eq!(bvh.stack_needed(), 3 * deepest);
-        // The worst ray does fit.
-        let ray = PreparedRay::new(Ray::new(Vec3::NEG_Z * 3.0, Vec3::Z));
-        let mut visits = 0;
-        assert!(!bvh.any_hit(&ray, f32::INFINITY, |_| {
-            visits += 1;
-            false
-        }));
-        assert_eq!(visits, 3 * deepest + 1);
-        refused(&chain(deepest + 1), 1, |e| matches!(e, BvhError::TooDeep { .. }));
+        let most = halflight::bvh::STACK;
+        for down in 0..4 {
+            for entries in [1, most - 1, most] {
+                let nodes = deep(entries, down);
+                let bvh = Bvh::new(&nodes, 1).unwrap();
+                assert_eq!(bvh.stack_needed(), entries);
+                // A ray that enters everything and meets nothing visits each leaf once.
+                let ray = PreparedRay::new(Ray::new(Vec3::NEG_Z * 3.0, Vec3::Z));
+                let (mut any, mut closest) = (0, 0);
+                assert!(!bvh.any_hit(&ray, f32::INFINITY, |_| {
+                    any += 1;
+                    false
+                }));
+                let found = bvh.closest_hit(&ray, f32::INFINITY, |_, _| {
+                    closest += 1;
+                    None::<(f32, ())>
+                });
+                assert_eq!((any, closest, found), (entries + 1, entries + 1, None));
+            }
+            refused(&deep(most + 1, down), 1, |e| matches!(e, BvhError::TooDeep { .. }));
+        }
     }
 
     #[test]

@@ -73,7 +73,8 @@ impl core::error::Error for BvhError {}
 /// is walked: a node with `k` children needs `k − 1` entries more than are waiting when it is
 /// reached. More visits than nodes mean that a node is shared or its own descendant.
 pub(super) fn check(nodes: &[Node], primitives: usize) -> Result<usize, BvhError> {
-    let mut stack = [(0_u32, 0_u32); STACK];
+    // One more than a query: the child that is walked next waits here too.
+    let mut stack = [(0_u32, 0_u32); STACK + 1];
     let (mut height, mut visits, mut needed) = (1, 0, 0);
     while height > 0 {
         height -= 1;
@@ -92,11 +93,8 @@ pub(super) fn check(nodes: &[Node], primitives: usize) -> Result<usize, BvhError
         for slot in 0..WIDTH {
             check_slot(node, slot, index, nodes.len(), primitives)?;
             if let Child::Node(child) = node.child(slot) {
-                // In range: the nodes waiting here are among the `below` of the worst ray, plus one.
-                let Some(entry) = stack.get_mut(height) else {
-                    return Err(BvhError::TooDeep { needed: height + 1 });
-                };
-                *entry = (child, below as u32);
+                // In range: what waits here is among the `below` of the worst ray, plus one.
+                stack[height] = (child, below as u32);
                 height += 1;
             }
         }

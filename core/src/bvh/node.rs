@@ -58,10 +58,12 @@ impl Node {
         slots: [EMPTY; WIDTH],
     };
 
-    /// Puts a child and its box into a slot below [`WIDTH`]. A leaf's count and first primitive must
-    /// be in range; what is not is refused by [`super::Bvh::new`].
+    /// Puts a child and its box into a slot below [`WIDTH`]; an empty one has a box that no ray enters,
+    /// whatever is given. A leaf's count and first primitive must be in range; what is not is refused
+    /// by [`super::Bvh::new`].
     #[must_use]
     pub const fn with_child(mut self, slot: usize, child: Child, bounds: Aabb) -> Self {
+        let bounds = if let Child::Empty = child { Aabb::EMPTY } else { bounds };
         let (min, max) = (bounds.min.to_array(), bounds.max.to_array());
         let mut axis = 0;
         while axis < 3 {

@@ -79,13 +79,17 @@ impl Bvh<'_> {
         loop {
             let node = &self.nodes[current as usize];
             let mut mask = slabs.enter(node, t_max).mask;
+            // One child is walked next and does not wait: the others are what `Bvh::new` has counted.
+            let mut next = None;
             while mask != 0 {
                 let lane = mask.trailing_zeros() as usize % WIDTH;
                 mask &= mask - 1;
                 match decode(node.slots[lane]) {
                     Child::Node(index) => {
-                        stack[height] = index;
-                        height += 1;
+                        if let Some(waiting) = next.replace(index) {
+                            stack[height] = waiting;
+                            height += 1;
+                        }
                     }
                     Child::Leaf { first, count } => {
                         if (first..first + count).any(&mut meet) {
@@ -95,11 +99,14 @@ impl Bvh<'_> {
                     Child::Empty => {}
                 }
             }
-            if height == 0 {
-                return false;
-            }
-            height -= 1;
-            current = stack[height];
+            current = match next {
+                Some(index) => index,
+                None if height == 0 => return false,
+                None => {
+                    height -= 1;
+                    stack[height]
+                }
+            };
         }
     }
 }
