@@ -89,7 +89,9 @@ pub(crate) fn make(
     let author = &description.integrator;
     let surface = match choices.lights {
         Lights::Area => SurfaceDensity::Area,
-        Lights::Auto | Lights::SolidAngle => SurfaceDensity::SolidAngle,
+        Lights::SolidAngle => SurfaceDensity::SolidAngle,
+        Lights::Projected => SurfaceDensity::Projected,
+        Lights::Auto => SurfaceDensity::Auto,
     };
     Ok(Plan::Direct {
         technique: technique(choices, author.light_samples, author.bsdf_samples),
@@ -216,6 +218,8 @@ const fn surface_flag(surface: SurfaceDensity) -> &'static str {
     match surface {
         SurfaceDensity::Area => "area",
         SurfaceDensity::SolidAngle => "solid-angle",
+        SurfaceDensity::Projected => "projected",
+        SurfaceDensity::Auto => "auto",
     }
 }
 

@@ -101,15 +101,18 @@ pub mod choose;
 pub mod estimate;
 pub mod film;
 pub mod geom;
+pub mod irradiance;
 pub mod light;
 #[cfg(feature = "load")]
 pub mod load;
 pub mod measure;
 pub mod num;
+pub mod projected;
 mod rgb;
 pub mod scene;
 pub mod sequence;
 pub mod shape;
+pub mod solid_angle;
 pub mod warp;
 
 pub use camera::Camera;

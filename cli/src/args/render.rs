@@ -118,8 +118,10 @@ pub(crate) enum Lights {
     Auto,
     /// Uniform over its area
     Area,
-    /// Uniform over the solid angle it fills, where that is known
+    /// Uniform over the solid angle it fills
     SolidAngle,
+    /// Uniform over the projected solid angle: the cosine is in the density
+    Projected,
 }
 
 /// Where directions come from.

@@ -61,7 +61,7 @@ impl Default for Direct<'_> {
             technique: Technique::Auto(Heuristic::Power),
             light_samples: 1,
             bsdf_samples: 1,
-            surface: SurfaceDensity::SolidAngle,
+            surface: SurfaceDensity::Auto,
             choice: LightChoice::All,
         }
     }

@@ -1,12 +1,14 @@
 //! Sampling an open cylinder.
 
-use super::SampledShape;
+use super::{AreaView, NoView, Receiver, SampledShape, Sides, SurfaceDensity, View};
 use crate::geom::Frame;
 use crate::num::{self, TAU};
 use crate::shape::{Cylinder, SurfacePoint};
 use glam::Vec3;
 
 impl SampledShape for Cylinder {
+    type View = View<Self, NoView, NoView>;
+
     /// Density `1 / (2π r l)` (m⁻²); `u[0]` is the height, `u[1]` the turn around the axis.
     #[inline]
     fn sample_area(&self, u: [f32; 2]) -> SurfacePoint {
@@ -20,5 +22,10 @@ impl SampledShape for Cylinder {
         let frame = Frame::from_normal(self.unit_axis());
         let turn = num::atan2(n.dot(frame.t), n.dot(frame.s)) / TAU;
         [h, if turn < 0.0 { turn + 1.0 } else { turn }]
+    }
+
+    #[inline]
+    fn view(&self, from: &Receiver, _: SurfaceDensity, _: Sides) -> Option<Self::View> {
+        Some(View::Area(AreaView::new(*self, from)))
     }
 }

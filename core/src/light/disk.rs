@@ -1,11 +1,13 @@
 //! Sampling a disk or an ellipse.
 
-use super::SampledShape;
+use super::{AreaView, NoView, Receiver, SampledShape, Sides, SurfaceDensity, View};
 use crate::shape::{Disk, SurfacePoint};
 use crate::warp;
 use glam::{Vec2, Vec3};
 
 impl SampledShape for Disk {
+    type View = View<Self, NoView, NoView>;
+
     /// Density `1 / (π a b)` (m⁻²); the concentric map, stretched along the axes.
     #[inline]
     fn sample_area(&self, u: [f32; 2]) -> SurfacePoint {
@@ -16,5 +18,10 @@ impl SampledShape for Disk {
     fn sample_area_inverse(&self, point: Vec3) -> [f32; 2] {
         let (a, b) = self.coordinates(point);
         warp::disk_to_square(Vec2::new(a, b))
+    }
+
+    #[inline]
+    fn view(&self, from: &Receiver, _: SurfaceDensity, _: Sides) -> Option<Self::View> {
+        Some(View::Area(AreaView::new(*self, from)))
     }
 }

@@ -7,6 +7,7 @@
 mod area;
 mod constant;
 mod cylinder;
+mod density;
 mod directional;
 mod disk;
 mod error;
@@ -15,13 +16,16 @@ mod rectangle;
 mod sphere;
 mod spot;
 mod triangle;
+mod view;
 
-pub use area::{AreaLight, SampledShape, SurfaceDensity, SurfaceSample};
+pub use area::{AreaLight, SampledShape, Sides};
 pub use constant::Constant;
+pub use density::SurfaceDensity;
 pub use directional::Directional;
 pub use error::LightError;
 pub use point::Point;
 pub use spot::Spot;
+pub use view::{AreaView, NoView, SurfaceSample, SurfaceView, View};
 
 use crate::Rgb;
 use crate::shape::{Cylinder, Disk, Rectangle, Sphere, SurfacePoint, Triangle};
@@ -96,6 +100,13 @@ pub trait Emitter: Copy {
     fn radiance_escaping(&self, wi: Vec3) -> Rgb {
         let _ = wi;
         Rgb::BLACK
+    }
+
+    /// Irradiance at `from` when nothing is in the way, in closed form (W m⁻²); `None` for a light
+    /// that has none.
+    fn unshadowed_irradiance(&self, from: &Receiver) -> Option<Rgb> {
+        let _ = from;
+        None
     }
 
     /// True for a light that surrounds the scene.
@@ -200,6 +211,10 @@ impl Emitter for AnyLight {
     #[inline]
     fn radiance_escaping(&self, wi: Vec3) -> Rgb {
         each_light!(self, l => l.radiance_escaping(wi))
+    }
+
+    fn unshadowed_irradiance(&self, from: &Receiver) -> Option<Rgb> {
+        each_light!(self, l => l.unshadowed_irradiance(from))
     }
 
     #[inline]

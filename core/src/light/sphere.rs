@@ -1,23 +1,29 @@
 //! Sampling a sphere: its whole surface, or the cone that it fills.
 
-use super::{Receiver, SampledShape, SurfaceDensity, SurfaceSample};
+use super::{
+    AreaView, NoView, Receiver, SampledShape, Sides, SurfaceDensity, SurfaceSample, SurfaceView, View,
+};
 use crate::geom::{Frame, unit};
-use crate::measure::area_to_solid_angle;
 use crate::num;
-use crate::shape::{Shape, Sphere, SurfacePoint};
+use crate::shape::{Sphere, SurfacePoint};
 use crate::warp;
 use glam::Vec3;
 
-/// The cone in which a sphere is seen from outside.
-struct Cone {
-    axis: Vec3,
+/// The cone in which a sphere is seen from outside: uniform over solid angle,
+/// `1 / (2π (1 − cos θ_max))` (sr⁻¹).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SphereCone {
+    sphere: Sphere,
+    frame: Frame,
     /// Distance to the centre (m).
     distance: f32,
     /// `sin² θ_max`.
     sin2_max: f32,
+    /// `1 − cos θ_max`.
+    one_minus_cos_max: f32,
 }
 
-impl Cone {
+impl SphereCone {
     /// `None` from inside, and from the surface as far as rounding places its points: one of the
     /// inner wall must not take itself for an outer one.
     #[inline]
@@ -30,13 +36,11 @@ impl Cone {
             return None;
         }
         let sin_max = sphere.radius() / distance;
-        Some(Self { axis, distance, sin2_max: sin_max * sin_max })
-    }
-
-    /// `1 − cos θ_max = s² / (1 + √(1 − s²))`: no cancellation for any size.
-    #[inline]
-    fn one_minus_cos_max(&self) -> f32 {
-        self.sin2_max / (1.0 + num::sqrt(1.0 - self.sin2_max))
+        let sin2_max = sin_max * sin_max;
+        // 1 − cos θ_max = s² / (1 + √(1 − s²)): no cancellation for any size.
+        let one_minus_cos_max = sin2_max / (1.0 + num::sqrt(1.0 - sin2_max));
+        let frame = Frame::from_normal(axis);
+        Some(Self { sphere: *sphere, frame, distance, sin2_max, one_minus_cos_max })
     }
 
     /// Outward normal of the sphere where the local direction `d` first meets it.
@@ -51,12 +55,52 @@ impl Cone {
         let sin2 = d.x * d.x + d.y * d.y;
         let sin_max = num::sqrt(self.sin2_max);
         let cos_beta = sin2 / sin_max + d.z * num::sqrt(1.0 - sin2 / self.sin2_max);
-        let local = Vec3::new(d.x * reach, d.y * reach, -cos_beta);
-        Frame::from_normal(self.axis).to_world(local)
+        self.frame.to_world(Vec3::new(d.x * reach, d.y * reach, -cos_beta))
+    }
+
+    /// Distance to the sphere along the local direction `d`:
+    /// `d cos θ − √(r² − d² sin² θ)`, rearranged to its product form.
+    #[inline]
+    fn near_distance(&self, d: Vec3) -> f32 {
+        let sin2 = d.x * d.x + d.y * d.y;
+        let radius = self.sphere.radius();
+        let half_chord = radius * num::sqrt(1.0 - sin2 / self.sin2_max);
+        let (gap, far) = (self.distance - radius, self.distance * d.z + half_chord);
+        // Product of both distances along a ray: the power of the point, (d − r)(d + r).
+        gap * ((self.distance + radius) / far)
+    }
+
+    /// The sample in the local direction `d` of the cone.
+    #[inline]
+    fn toward(&self, d: Vec3) -> Option<SurfaceSample> {
+        // Not from the difference of the points, which cancels for a distant sphere.
+        let distance = self.near_distance(d);
+        let n = unit(self.normal_at(d, distance / self.sphere.radius()))?;
+        Some(SurfaceSample { at: self.sphere.point(n), wi: self.frame.to_world(d), distance })
+    }
+}
+
+impl SurfaceView for SphereCone {
+    /// Uniform in the cone, and the point where that direction first meets the sphere.
+    #[inline]
+    fn sample(&self, u: [f32; 2]) -> Option<SurfaceSample> {
+        self.toward(warp::cone(u, self.one_minus_cos_max))
+    }
+
+    #[inline]
+    fn pdf_solid_angle(&self, _: &SurfacePoint, _: Vec3, _: f32) -> Option<f32> {
+        Some(warp::cone_pdf(self.one_minus_cos_max)).filter(|p| p.is_finite())
+    }
+
+    fn invert(&self, _: &SurfacePoint, wi: Vec3) -> Option<[f32; 2]> {
+        let [s, t] = warp::cone_inverse(self.frame.to_local(wi), self.one_minus_cos_max);
+        Some([s.min(num::ONE_MINUS_EPSILON), t])
     }
 }
 
 impl SampledShape for Sphere {
+    type View = View<Self, SphereCone, NoView>;
+
     /// Density `1 / (4π r²)` (m⁻²): half of the points are on the far side.
     #[inline]
     fn sample_area(&self, u: [f32; 2]) -> SurfacePoint {
@@ -67,50 +111,13 @@ impl SampledShape for Sphere {
         warp::uniform_sphere_inverse(unit(point - self.centre()).unwrap_or(Vec3::Z))
     }
 
-    /// By solid angle: uniform in the cone `1 / (2π (1 − cos θ_max))`, and the point where that
-    /// direction first meets the sphere. From inside and from the surface itself, by area.
+    /// From inside and from the surface itself, by area.
     #[inline]
-    fn sample_surface(&self, from: &Receiver, method: SurfaceDensity, u: [f32; 2]) -> Option<SurfaceSample> {
-        match (method, Cone::new(self, from.point)) {
-            (SurfaceDensity::SolidAngle, Some(cone)) => {
-                let local = warp::cone(u, cone.one_minus_cos_max());
-                // Not from the difference of the points, which cancels for a distant sphere.
-                let distance = cone.near_distance(local, self.radius());
-                let n = unit(cone.normal_at(local, distance / self.radius()))?;
-                let wi = Frame::from_normal(cone.axis).to_world(local);
-                let at = self.point(n);
-                Some(SurfaceSample { at, wi, distance })
-            }
-            _ => SurfaceSample::toward(from.point, self.sample_area(u)),
+    fn view(&self, from: &Receiver, method: SurfaceDensity, _: Sides) -> Option<Self::View> {
+        let area = || View::Area(AreaView::new(*self, from));
+        match method {
+            SurfaceDensity::Area => Some(area()),
+            _ => Some(SphereCone::new(self, from.point).map_or_else(area, View::SolidAngle)),
         }
-    }
-
-    #[inline]
-    fn pdf_solid_angle(
-        &self,
-        from: &Receiver,
-        method: SurfaceDensity,
-        at: &SurfacePoint,
-        cos_light: f32,
-    ) -> Option<f32> {
-        match (method, Cone::new(self, from.point)) {
-            (SurfaceDensity::SolidAngle, Some(cone)) => {
-                Some(warp::cone_pdf(cone.one_minus_cos_max())).filter(|p| p.is_finite())
-            }
-            _ => area_to_solid_angle(1.0 / self.area(), at.point.distance_squared(from.point), cos_light),
-        }
-    }
-}
-
-impl Cone {
-    /// Distance to the sphere along the local direction `d`:
-    /// `d cos θ − √(r² − d² sin² θ)`, rearranged to its product form.
-    #[inline]
-    fn near_distance(&self, d: Vec3, radius: f32) -> f32 {
-        let sin2 = d.x * d.x + d.y * d.y;
-        let half_chord = radius * num::sqrt(1.0 - sin2 / self.sin2_max);
-        let (gap, far) = (self.distance - radius, self.distance * d.z + half_chord);
-        // Product of both distances along a ray: the power of the point, (d − r)(d + r).
-        gap * ((self.distance + radius) / far)
     }
 }

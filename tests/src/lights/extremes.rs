@@ -5,7 +5,7 @@ use crate::random::{Uniforms, corners};
 use crate::{Verdict, ensure};
 use halflight::Rgb;
 use halflight::glam::Vec3;
-use halflight::light::{AreaLight, Density, Emitter, Receiver, SurfaceDensity};
+use halflight::light::{AreaLight, Density, Emitter, Receiver, SurfaceDensity, SurfaceView};
 
 /// Sizes of the light (m).
 const SIZES: [f32; 3] = [1e-6, 1.0, 1e6];
@@ -78,7 +78,7 @@ fn stays_finite<S: Specimen>(
         ensure!(sample.incident == Rgb::WHITE, "{what}: radiance {:?}", sample.incident);
         let share = from.normal.dot(sample.wi).max(0.0) / pdf;
         ensure!(share.is_finite(), "{what}: {share} arrives with density {pdf}");
-        let Some(drawn) = shape.sample_surface(from, method, u) else {
+        let Some(drawn) = light.view(from, method).and_then(|v| v.sample(u)) else {
             return Err(crate::Failure(format!("{what}: a direction without a point at {u:?}")));
         };
         let queried = light.pdf_solid_angle(from, method, sample.wi, &drawn.at);

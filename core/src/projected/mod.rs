@@ -1,0 +1,1 @@
+//! Regions of directions above a horizon, and sampling over them in proportion to the cosine.

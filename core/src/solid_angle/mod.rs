@@ -1,0 +1,1 @@
+//! Regions of directions and uniform sampling over them: the geometry behind the lights' views.
