@@ -1,7 +1,12 @@
 //! Choosing in proportion to power.
 
+/// Shares are whole numbers of this fraction: what uniforms of 23 or more bits tell apart, so that
+/// each light is chosen exactly as often as its share says.
+const STEPS: u32 = 1 << 23;
+
 /// Cumulative powers in the caller's slice: entry `i` is the share of the lights `0..=i`, the last
-/// is 1. A light without power has no share and is never chosen.
+/// is 1. A light without power has no share and is never chosen; one with power has at least 2⁻²³,
+/// so that it does not vanish where it is the only one seen.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PowerTable<'a> {
     cumulative: &'a [f32],
@@ -17,24 +22,28 @@ impl<'a> PowerTable<'a> {
         (rises && starts && ends).then_some(Self { cumulative })
     }
 
-    /// Fills a table from powers, summed in double precision; false when there is no power at all
-    /// or the lengths differ.
+    /// Fills a table from powers, summed in double precision; false when there is no power at all.
+    /// Beyond 2²³ lights not every one has a share.
     pub fn fill(cumulative: &mut [f32], power: impl Fn(usize) -> f32) -> bool {
         let usable = |p: f32| if p > 0.0 && p.is_finite() { f64::from(p) } else { 0.0 };
-        let total: f64 = (0..cumulative.len()).map(|i| usable(power(i))).sum();
-        if !(total > 0.0) {
-            return false;
+        let (mut total, mut left) = (0.0, 0_u32);
+        for p in (0..cumulative.len()).map(|i| usable(power(i))).filter(|&p| p > 0.0) {
+            total += p;
+            left = left.saturating_add(1);
         }
-        let (mut sum, mut last) = (0.0, 0);
+        let (mut sum, mut end) = (0.0, 0);
         for (i, entry) in cumulative.iter_mut().enumerate() {
             let p = usable(power(i));
-            sum += p;
-            last = if p > 0.0 { i } else { last };
-            *entry = (sum / total) as f32;
+            if p > 0.0 {
+                sum += p;
+                left = left.saturating_sub(1);
+                // The nearest step, but one for each light before it and one for each behind.
+                let nearest = (sum / total * f64::from(STEPS) + 0.5) as u32;
+                end = nearest.max(end + 1).min(STEPS.saturating_sub(left));
+            }
+            *entry = end as f32 / STEPS as f32;
         }
-        // The last light with power closes the table; those behind it get nothing.
-        cumulative[last..].fill(1.0);
-        true
+        end == STEPS
     }
 
     /// The first light whose share ends above `u`.
@@ -72,6 +81,25 @@ mod tests {
         assert_eq!(t.choose(0.124), Some(0));
         assert_eq!(t.choose(0.125), Some(2));
         assert_eq!(t.choose(crate::num::ONE_MINUS_EPSILON), Some(3));
+    }
+
+    #[test]
+    fn every_light_with_power_is_chosen_exactly_as_often_as_its_share_says() {
+        for powers in [
+            [1e-30, 1.0, 0.0, 1e-9, 1e6, 3e-7, 1e-20],
+            [0.0, 1e30, 1e-30, 1e-30, 1e-30, 0.0, 0.0],
+            [1.0 / 3.0, 1e-8, 1.0 / 7.0, 0.2, 0.0, 1e-8, 0.1],
+        ] {
+            let mut table = [0.0; 7];
+            assert!(PowerTable::fill(&mut table, |i| powers[i]));
+            let t = PowerTable::new(&table).unwrap();
+            let mut chosen = [0_u32; 7];
+            for step in 0..STEPS {
+                chosen[t.choose(step as f32 / STEPS as f32).unwrap()] += 1;
+            }
+            assert_eq!(chosen.map(|n| n as f32 / STEPS as f32), core::array::from_fn(|i| t.pmf(i)));
+            assert_eq!(chosen.map(|n| n > 0), powers.map(|p| p > 0.0));
+        }
     }
 
     #[test]
