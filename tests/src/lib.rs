@@ -5,6 +5,7 @@ pub mod bsdfs;
 pub mod histogram;
 pub mod lights;
 pub mod oracle;
+pub mod oracle_extremes;
 pub mod quadrature;
 pub mod random;
 pub mod scenes;

@@ -85,7 +85,7 @@ fn agrees_where_one_shape_is_huge_or_all_are_the_same() {
 }
 
 #[test]
-fn agrees_along_the_faces_of_flat_boxes() {
+pub(crate) fn agrees_along_the_faces_of_flat_boxes() {
     // A grid of axis-aligned rectangles: boxes without thickness, and rays in their planes.
     let mut shapes = Vec::new();
     for i in 0..6 {
@@ -117,7 +117,7 @@ fn nothing_meets_nothing() {
 }
 
 #[test]
-fn rays_that_are_not_numbers_meet_nothing() {
+pub(crate) fn rays_that_are_not_numbers_meet_nothing() {
     let mut random = Uniforms::new(95);
     let shapes: Vec<_> = (0..100).map(|_| random_shape(&mut random, 1.0, 0.5)).collect();
     let forest = Forest::new(&shapes);
@@ -134,7 +134,7 @@ fn rays_that_are_not_numbers_meet_nothing() {
 }
 
 #[test]
-fn a_chain_of_ever_smaller_shapes_still_builds() {
+pub(crate) fn a_chain_of_ever_smaller_shapes_still_builds() {
     // Each twice as far and as large as the last: clustering makes a chain of such.
     let shapes: Vec<_> = (0..120)
         .map(|i| {
@@ -152,7 +152,7 @@ fn a_chain_of_ever_smaller_shapes_still_builds() {
 }
 
 /// What a tree may not be.
-mod is_refused {
+pub(crate) mod is_refused {
     use super::*;
 
     const BOX: Aabb = Aabb { min: Vec3::NEG_ONE, max: Vec3::ONE };
@@ -234,7 +234,7 @@ mod is_refused {
     }
 
     #[test]
-    fn one_that_is_too_deep_for_the_stack_and_no_other() {
+    pub(crate) fn one_that_is_too_deep_for_the_stack_and_no_other() {
         let most = halflight::bvh::STACK;
         for down in 0..4 {
             for entries in [1, most - 1, most] {
@@ -306,7 +306,7 @@ fn no_tree_that_is_accepted_loops_or_panics() {
 
 /// A large flat mesh, on whose shared edges no ray may be lost.
 #[test]
-fn no_ray_is_lost_at_the_edges_of_a_mesh() {
+pub(crate) fn no_ray_is_lost_at_the_edges_of_a_mesh() {
     let n = 40;
     let at = |i: usize, j: usize| Vec3::new(i as f32, 0.1 * ((i * 7 + j * 13) % 5) as f32, j as f32);
     let mut shapes = Vec::new();

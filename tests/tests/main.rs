@@ -5,6 +5,7 @@ mod bvh;
 mod closed_forms;
 mod delta;
 mod estimators;
+mod extremes;
 mod lights;
 mod pictures;
 mod shapes;

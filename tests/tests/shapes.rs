@@ -122,7 +122,7 @@ fn no_ray_escapes_from_a_sphere() {
 }
 
 #[test]
-fn every_ray_from_inside_a_closed_mesh_meets_it() {
+pub(crate) fn every_ray_from_inside_a_closed_mesh_meets_it() {
     for (centre, radius) in [(Vec3::ZERO, 1.0), (Vec3::new(1e3, -2e3, 500.0), 1.0), (Vec3::ZERO, 1e6)] {
         let (corners, triangles) = bumpy_ball(8, centre, radius);
         let mut random = Uniforms::new(83);
@@ -144,7 +144,7 @@ fn every_ray_from_inside_a_closed_mesh_meets_it() {
 }
 
 #[test]
-fn a_sphere_is_met_within_four_ulps() {
+pub(crate) fn a_sphere_is_met_within_four_ulps() {
     let mut random = Uniforms::new(84);
     for distance in [1.5_f32, 10.0, 1e3, 1e5] {
         for radius in [1.0_f32, 1e-3, 1e4] {
@@ -183,7 +183,7 @@ fn what_a_ray_meets_is_on_the_ray_and_in_the_box() {
 }
 
 #[test]
-fn rays_that_are_not_numbers_meet_nothing() {
+pub(crate) fn rays_that_are_not_numbers_meet_nothing() {
     for shape in one_of_each(0.0, 1.0) {
         for (origin, direction) in [
             (Vec3::NAN, Vec3::Z),

@@ -7,5 +7,6 @@ mod disk;
 mod help;
 #[cfg(unix)]
 mod interrupt;
+mod output_range;
 mod results;
 mod support;
