@@ -25,7 +25,7 @@ pub trait SampledShape: Shape {
     /// A point uniform over the surface, density `1 / area` (m⁻²).
     fn sample_area(&self, u: [f32; 2]) -> SurfacePoint;
 
-    /// Inverse of [`SampledShape::sample_area`]; each in `[0, 1)`.
+    /// Inverse of [`SampledShape::sample_area`]; each in `[0, 1)`, to rounding.
     fn sample_area_inverse(&self, point: Vec3) -> [f32; 2];
 
     /// The density over what `from` sees of the emitting sides; `None` when that is nothing.

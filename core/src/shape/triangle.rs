@@ -101,7 +101,9 @@ impl Shape for Triangle {
 
     #[inline]
     fn area(&self) -> f32 {
-        0.5 * self.cross().length()
+        // Not the root of squares: those of a small sliver's would be subnormal.
+        let cross = self.cross();
+        0.5 * unit(cross).map_or(0.0, |n| n.dot(cross))
     }
 
     /// Source: Woop, Benthin, Wald 2013, *Watertight Ray/Triangle Intersection*, JCGT 2(1),
