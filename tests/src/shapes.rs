@@ -4,6 +4,20 @@ use crate::random::Uniforms;
 use halflight::glam::Vec3;
 use halflight::shape::{AnyShape, Cylinder, Disk, Rectangle, Shape, Sphere, SurfacePoint, Triangle};
 
+/// An expression over a shape of whatever kind.
+#[macro_export]
+macro_rules! with_shape {
+    ($shape:expr, $inner:ident => $body:expr) => {
+        match $shape {
+            halflight::shape::AnyShape::Triangle($inner) => $body,
+            halflight::shape::AnyShape::Rectangle($inner) => $body,
+            halflight::shape::AnyShape::Disk($inner) => $body,
+            halflight::shape::AnyShape::Sphere($inner) => $body,
+            halflight::shape::AnyShape::Cylinder($inner) => $body,
+        }
+    };
+}
+
 /// A random shape about `size` across within a cube of half-edge `spread`.
 pub fn random_shape(random: &mut Uniforms, spread: f32, size: f32) -> AnyShape {
     let at = random.in_cube() * spread;
@@ -24,13 +38,7 @@ pub fn random_shape(random: &mut Uniforms, spread: f32, size: f32) -> AnyShape {
 pub fn random_point(shape: &AnyShape, random: &mut Uniforms) -> SurfacePoint {
     use halflight::light::SampledShape;
     let u = random.two();
-    match shape {
-        AnyShape::Triangle(s) => s.sample_area(u),
-        AnyShape::Rectangle(s) => s.sample_area(u),
-        AnyShape::Disk(s) => s.sample_area(u),
-        AnyShape::Sphere(s) => s.sample_area(u),
-        AnyShape::Cylinder(s) => s.sample_area(u),
-    }
+    with_shape!(shape, s => s.sample_area(u))
 }
 
 /// A closed mesh: a torus-like ring of bumps around a sphere, as triangles with shared corners.

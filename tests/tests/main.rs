@@ -8,6 +8,7 @@ mod estimators;
 mod extremes;
 mod lights;
 mod pictures;
+mod properties;
 mod shapes;
 
 /// Every kind of light has its line in the conformance suite.

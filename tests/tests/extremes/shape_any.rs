@@ -14,20 +14,7 @@ use halflight_tests::random::{Uniforms, corners};
 use halflight_tests::scenes::{Stage, seen_at_origin};
 use halflight_tests::shapes::random_shape;
 use halflight_tests::statistics::check_variance;
-use halflight_tests::{Verdict, ensure, oracle};
-
-/// The same for a shape of whatever kind.
-macro_rules! with_shape {
-    ($shape:expr, $inner:ident => $body:expr) => {
-        match $shape {
-            AnyShape::Triangle($inner) => $body,
-            AnyShape::Rectangle($inner) => $body,
-            AnyShape::Disk($inner) => $body,
-            AnyShape::Sphere($inner) => $body,
-            AnyShape::Cylinder($inner) => $body,
-        }
-    };
-}
+use halflight_tests::{Verdict, ensure, oracle, with_shape};
 
 /// One shape of each kind, all within 1 of `centre`.
 fn one_of_each(centre: Vec3) -> [AnyShape; 5] {
