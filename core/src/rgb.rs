@@ -42,11 +42,11 @@ impl Rgb {
         0.2126 * self.r + 0.7152 * self.g + 0.0722 * self.b
     }
 
-    /// Mean of the channels.
+    /// Mean of the channels; finite when they are.
     #[inline]
     #[must_use]
     pub fn average(self) -> f32 {
-        (self.r + self.g + self.b) * (1.0 / 3.0)
+        (self.r + self.g + self.b).min(f32::MAX) * (1.0 / 3.0)
     }
 
     /// The largest channel.

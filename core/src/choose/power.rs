@@ -25,7 +25,8 @@ impl<'a> PowerTable<'a> {
     /// Fills a table from powers, summed in double precision; false when there is no power at all.
     /// Beyond 2²³ lights not every one has a share.
     pub fn fill(cumulative: &mut [f32], power: impl Fn(usize) -> f32) -> bool {
-        let usable = |p: f32| if p > 0.0 && p.is_finite() { f64::from(p) } else { 0.0 };
+        // Beyond `f32` is very bright, not dark.
+        let usable = |p: f32| if p > 0.0 { f64::from(p.min(f32::MAX)) } else { 0.0 };
         let (mut total, mut left) = (0.0, 0_u32);
         for p in (0..cumulative.len()).map(|i| usable(power(i))).filter(|&p| p > 0.0) {
             total += p;
@@ -107,6 +108,7 @@ mod tests {
         let mut table = [0.0; 2];
         assert!(!PowerTable::fill(&mut table, |_| 0.0));
         assert!(!PowerTable::fill(&mut table, |_| f32::NAN));
+        assert!(PowerTable::fill(&mut table, |i| [1.0, f32::INFINITY][i]));
         assert!(!PowerTable::fill(&mut [], |_| 1.0));
         assert_eq!(PowerTable::new(&[]), None);
         assert_eq!(PowerTable::new(&[0.5, 0.25, 1.0]), None);

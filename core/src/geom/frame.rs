@@ -58,7 +58,9 @@ pub(crate) fn unit(v: Vec3) -> Option<Vec3> {
     }
     // A power of two near 1/scale would be exact; division is good to one rounding and total.
     let w = v / scale;
-    Some(w / num::sqrt(w.length_squared()))
+    let squared = w.length_squared();
+    // Between 1 and 3, unless a component is NaN, which the largest one does not show.
+    (squared >= 1.0).then(|| w / num::sqrt(squared))
 }
 
 #[cfg(test)]
@@ -97,6 +99,8 @@ mod tests {
         }
         assert_eq!(unit(Vec3::ZERO), None);
         assert_eq!(unit(Vec3::NAN), None);
+        assert_eq!(unit(Vec3::new(f32::NAN, -1.0, 0.0)), None);
+        assert_eq!(unit(Vec3::new(1.0, 0.0, f32::NAN)), None);
         assert_eq!(unit(Vec3::INFINITY), None);
     }
 }

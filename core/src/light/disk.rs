@@ -17,7 +17,8 @@ impl SampledShape for Disk {
 
     fn sample_area_inverse(&self, point: Vec3) -> [f32; 2] {
         let (a, b) = self.coordinates(point);
-        warp::disk_to_square(Vec2::new(a, b))
+        // A thousandth of a nanometre beside a needle is many of its widths.
+        warp::disk_to_square(Vec2::new(a.clamp(-1.0, 1.0), b.clamp(-1.0, 1.0)))
     }
 
     #[inline]
