@@ -1,0 +1,13 @@
+//! The same light from everywhere, seen from anywhere.
+#![no_main]
+
+use halflight::light::Constant;
+use halflight_fuzz::{Numbers, emitter};
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|data: &[u8]| {
+    let mut n = Numbers::new(data);
+    if let Ok(light) = Constant::new(n.colour()) {
+        emitter(&light, &n.receiver(), n.uniforms());
+    }
+});
