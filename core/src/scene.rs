@@ -229,13 +229,30 @@ impl<'a, S: Shape, L: Emitter, B: Bsdf> Scene<'a, S, L, B> {
     #[inline]
     #[must_use]
     pub fn visible(&self, from: &SurfacePoint, wi: Vec3, distance: f32) -> bool {
+        self.unblocked(from, wi, distance, None)
+    }
+
+    /// True when nothing stands between a surface point and a point of the light with index `light`,
+    /// `distance` (m) away. The light's own surface is in the way only of its far side.
+    #[inline]
+    #[must_use]
+    pub fn light_visible(&self, from: &SurfacePoint, wi: Vec3, distance: f32, light: usize) -> bool {
+        self.unblocked(from, wi, distance, Some(light as u32))
+    }
+
+    #[inline]
+    fn unblocked(&self, from: &SurfacePoint, wi: Vec3, distance: f32, light: Option<u32>) -> bool {
         let origin = offset_origin(from.point, from.error, from.normal, wi);
         let prepared = PreparedRay::new(Ray::new(origin, wi));
         let reach = distance * SHADOW_REACH;
         !self.bvh.any_hit(&prepared, reach, |primitive| {
-            self.surfaces
-                .get(primitive as usize)
-                .is_some_and(|s| s.shape.intersect(&prepared, reach).is_some())
+            self.surfaces.get(primitive as usize).is_some_and(|s| {
+                if Some(s.light) == light {
+                    s.shape.hides_itself(&prepared, reach)
+                } else {
+                    s.shape.intersect(&prepared, reach).is_some()
+                }
+            })
         })
     }
 

@@ -145,7 +145,7 @@ impl Direct<'_> {
         pmf: f32,
         u: [f32; 2],
     ) -> Rgb {
-        let light = &scene.lights()[light];
+        let (index, light) = (light, &scene.lights()[light]);
         if plan.light == 0 && !light.is_delta() {
             return Rgb::BLACK;
         }
@@ -163,7 +163,7 @@ impl Direct<'_> {
                 plan.heuristic.weight(this, other) / (pdf * pmf)
             }
         };
-        if !scene.visible(&shading.at.at, sample.wi, sample.distance) {
+        if !scene.light_visible(&shading.at.at, sample.wi, sample.distance, index) {
             return Rgb::BLACK;
         }
         reflected.f_cos * sample.incident * weight

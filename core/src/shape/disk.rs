@@ -83,6 +83,12 @@ impl Shape for Disk {
         (hit.u * hit.u + hit.v * hit.v <= 1.0).then_some(hit)
     }
 
+    /// A flat shape hides nothing of itself.
+    #[inline]
+    fn hides_itself(&self, _: &PreparedRay, _: f32) -> bool {
+        false
+    }
+
     #[inline]
     fn surface_point(&self, _ray: &Ray, hit: &ShapeHit) -> SurfacePoint {
         self.0.surface_point(hit.u, hit.v)

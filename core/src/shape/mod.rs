@@ -54,6 +54,18 @@ pub trait Shape: Copy {
     /// [`crate::geom::offset_origin`], does not meet it again there.
     fn intersect(&self, ray: &PreparedRay, t_max: f32) -> Option<ShapeHit>;
 
+    /// True when the shape hides a point of its own surface from the ray's origin.
+    ///
+    /// * `reach` – distance to the point along the ray, or slightly less (m)
+    ///
+    /// A shadow ray to a light asks the light's own surface this instead of [`Shape::intersect`],
+    /// whose rounding is more than any fixed slack where the ray grazes the surface or is about to
+    /// touch it.
+    #[inline]
+    fn hides_itself(&self, ray: &PreparedRay, reach: f32) -> bool {
+        self.intersect(ray, reach).is_some()
+    }
+
     /// The surface point of a hit that [`Shape::intersect`] has found.
     fn surface_point(&self, ray: &Ray, hit: &ShapeHit) -> SurfacePoint;
 }
@@ -111,6 +123,11 @@ impl Shape for AnyShape {
             Self::Triangle(triangle) => triangle.intersect(ray, t_max),
             other => other.intersect_out_of_line(ray, t_max),
         }
+    }
+
+    #[inline]
+    fn hides_itself(&self, ray: &PreparedRay, reach: f32) -> bool {
+        each_shape!(self, s => s.hides_itself(ray, reach))
     }
 
     #[inline]

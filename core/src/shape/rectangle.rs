@@ -84,6 +84,12 @@ impl Shape for Rectangle {
         (hit.u.abs() <= EDGE_SLACK && hit.v.abs() <= EDGE_SLACK).then_some(hit)
     }
 
+    /// A flat shape hides nothing of itself.
+    #[inline]
+    fn hides_itself(&self, _: &PreparedRay, _: f32) -> bool {
+        false
+    }
+
     #[inline]
     fn surface_point(&self, _ray: &Ray, hit: &ShapeHit) -> SurfacePoint {
         self.0.surface_point(hit.u, hit.v)

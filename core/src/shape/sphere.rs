@@ -88,6 +88,14 @@ impl Shape for Sphere {
         (t > 0.0 && t < t_max).then_some(ShapeHit { t, u: 0.0, v: 0.0 })
     }
 
+    /// A sphere hides its far side, beyond the ray's point nearest to the centre.
+    #[inline]
+    fn hides_itself(&self, prepared: &PreparedRay, reach: f32) -> bool {
+        let Ray { origin, direction } = prepared.ray;
+        let nearest = (self.centre - origin).dot(direction) / direction.length_squared();
+        reach > nearest && self.intersect(prepared, reach).is_some()
+    }
+
     #[inline]
     fn surface_point(&self, ray: &Ray, hit: &ShapeHit) -> SurfacePoint {
         // Pulled back onto the surface: the error does not depend on the distance of the origin.

@@ -142,7 +142,7 @@ fn row_48_no_self_intersection_far_from_the_origin_and_contact_shadows_stay() {
     let mut random = Uniforms::new(144);
     // How far beside the point of contact there is a gap that the coordinates can hold.
     for (far, aside) in [(0.0_f32, 0.05), (1e3, 0.05), (1e5, 0.6)] {
-        let gap = 1.0 - (1.0 - aside * aside as f32).sqrt();
+        let gap = 1.0 - (1.0_f32 - aside * aside).sqrt();
         let centre = Vec3::new(0.6, -0.7, 0.8) * far;
         let ball = AnyShape::Sphere(Sphere::new(centre, 1.0).unwrap());
         let floor = Rectangle::new(centre - Vec3::Y, Vec3::X * 5.0, Vec3::NEG_Z * 5.0).unwrap();
@@ -178,10 +178,10 @@ fn row_49_nothing_shadows_a_light_in_an_empty_scene() {
             use halflight::light::Emitter;
             let Some(sample) = light.sample(&from, METHODS[i % 4], random.two()) else { continue };
             let eye = SurfacePoint { point: at, error: Vec3::ZERO, normal: from.normal };
-            // A tube's far wall is seen through its near one, and that is its shadow.
-            if !matches!(shape, AnyShape::Cylinder(_)) && !matches!(shape, AnyShape::Sphere(_)) {
+            // A tube has no closed form of what it hides: at its rim rounding decides.
+            if !matches!(shape, AnyShape::Cylinder(_)) {
                 assert!(
-                    scene.visible(&eye, sample.wi, sample.distance),
+                    scene.light_visible(&eye, sample.wi, sample.distance, 0),
                     "{shape:?} hides itself: {sample:?}"
                 );
             }

@@ -58,7 +58,10 @@ fn row_02_points_of_a_tiny_cone_are_on_the_sphere_and_seen() {
                 let sample = view.sample(random.two()).unwrap();
                 let off = (sample.at.point.as_dvec3().length() - 1.0).abs();
                 assert!(off <= 4.0 * f64::from(f32::EPSILON), "{method:?} at {distance}: {off:e} off");
-                assert!(stage.scene().visible(&eye, sample.wi, sample.distance), "{sample:?} is hidden");
+                assert!(
+                    stage.scene().light_visible(&eye, sample.wi, sample.distance, 0),
+                    "{sample:?} is hidden"
+                );
             }
         }
     }
