@@ -78,6 +78,15 @@ impl Stage {
         self
     }
 
+    /// The last surface emits from both sides.
+    #[must_use]
+    pub fn two_sided(mut self) -> Self {
+        if let Some(emission) = self.0.objects.last_mut().and_then(|o| o.emission.as_mut()) {
+            emission.two_sided = true;
+        }
+        self
+    }
+
     /// With a light that is no surface.
     #[must_use]
     pub fn lit_by(mut self, light: AnyLight) -> Self {
@@ -99,18 +108,44 @@ pub fn seen_at_origin(
     toward: Vec3,
     samples: u32,
 ) -> Moments {
-    let direction = -toward.normalize();
-    seen(buffers, estimator, &Ray::new(direction * -5e-4, direction), samples)
+    seen(buffers, estimator, &to_origin(toward), samples)
 }
 
-/// What arrives along a ray, from independent samples.
+/// From half a millimetre away, on the side of `toward`.
+#[must_use]
+pub fn to_origin(toward: Vec3) -> Ray {
+    let direction = -toward.normalize();
+    Ray::new(direction * -5e-4, direction)
+}
+
+/// What arrives along a ray, from independent samples, none of them negative.
 pub fn seen(buffers: &SceneBuffers, estimator: &impl Estimator, ray: &Ray, samples: u32) -> Moments {
+    arriving(buffers, estimator, ray, samples, Rgb::is_valid)
+}
+
+/// The same where a sample may be negative.
+pub fn seen_as_difference(
+    buffers: &SceneBuffers,
+    estimator: &impl Estimator,
+    ray: &Ray,
+    samples: u32,
+) -> Moments {
+    arriving(buffers, estimator, ray, samples, Rgb::is_finite)
+}
+
+fn arriving(
+    buffers: &SceneBuffers,
+    estimator: &impl Estimator,
+    ray: &Ray,
+    samples: u32,
+    is_proper: fn(Rgb) -> bool,
+) -> Moments {
     let scene = buffers.scene();
     let mut sequence: Random = Random::new(101);
     Moments::of((0..samples).map(|sample| {
         sequence.start(7, sample);
         let radiance = estimator.sample(&scene, ray, f32::INFINITY, &mut sequence);
-        assert!(radiance.is_valid(), "{radiance:?} along {ray:?}");
+        assert!(is_proper(radiance), "{radiance:?} along {ray:?}");
         f64::from(radiance.g)
     }))
 }
