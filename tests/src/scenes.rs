@@ -5,8 +5,8 @@ use crate::statistics::Moments;
 use halflight::Rgb;
 use halflight::bsdf::{AnyBsdf, Lambert, Phong, TwoSided};
 use halflight::build::{
-    CameraDescription, Description, Emission, FovAxis, Geometry, IntegratorDescription, Material, Object,
-    ProjectionDescription, SceneBuffers,
+    CameraDescription, Description, Emission, FovAxis, Geometry, IntegratorDescription, Material, Mesh,
+    Object, ProjectionDescription, SceneBuffers,
 };
 use halflight::camera::View;
 use halflight::estimate::{Estimator, PixelStats};
@@ -99,6 +99,29 @@ impl Stage {
     pub fn build(&self) -> SceneBuffers {
         SceneBuffers::new(&self.0).expect("a proper scene")
     }
+}
+
+/// Hilly ground of 2 m by 2 m: `2 n²` triangles.
+#[must_use]
+pub fn bumpy_ground(n: u32) -> SceneBuffers {
+    let at = |i: u32| 2.0 * i as f32 / n as f32 - 1.0;
+    let height = |x: f32, z: f32| 0.15 * (7.0 * x).sin() * (5.0 * z).cos() + 0.02 * (41.0 * (x + z)).sin();
+    let grid = (0..=n).flat_map(|i| (0..=n).map(move |j| (at(i), at(j))));
+    let corner = |i: u32, j: u32| i * (n + 1) + j;
+    let triangles = (0..n).flat_map(|i| (0..n).map(move |j| (i, j))).flat_map(|(i, j)| {
+        let [a, b] = [corner(i, j), corner(i, j + 1)];
+        let [c, d] = [corner(i + 1, j), corner(i + 1, j + 1)];
+        [[a, b, c], [c, b, d]]
+    });
+    let mesh = Mesh {
+        positions: grid.map(|(x, z)| Vec3::new(x, height(x, z), z)).collect(),
+        normals: Vec::new(),
+        triangles: triangles.collect(),
+    };
+    let mut stage = Stage::empty();
+    let (name, geometry) = ("ground".into(), Geometry::Mesh(mesh));
+    stage.0.objects.push(Object { name, geometry, material: 1, emission: None });
+    stage.build()
 }
 
 /// What an eye half a millimetre away sees of the origin, from the side of `toward`.
