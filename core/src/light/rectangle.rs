@@ -25,10 +25,9 @@ impl SampledShape for Rectangle {
 
     #[inline]
     fn view(&self, from: &Receiver, method: SurfaceDensity, sides: Sides) -> Option<Self::View> {
-        match method {
-            SurfaceDensity::Projected | SurfaceDensity::Auto => {
-                ProjectedView::new(self, from, sides).map(View::Projected)
-            }
+        let radius = (self.half_u() + self.half_v()).length();
+        match method.required(from, self.centre(), radius, SurfaceDensity::Area) {
+            SurfaceDensity::Projected => ProjectedView::new(self, from, sides).map(View::Projected),
             _ => Some(View::Area(AreaView::new(*self, from))),
         }
     }

@@ -26,10 +26,11 @@ impl SampledShape for Triangle {
 
     #[inline]
     fn view(&self, from: &Receiver, method: SurfaceDensity, sides: Sides) -> Option<Self::View> {
-        match method {
-            SurfaceDensity::Projected | SurfaceDensity::Auto => {
-                ProjectedView::new(self, from, sides).map(View::Projected)
-            }
+        let [a, b, c] = Triangle::corners(self);
+        let centre = (a + b + c) / 3.0;
+        let radius = a.distance(centre).max(b.distance(centre)).max(c.distance(centre));
+        match method.required(from, centre, radius, SurfaceDensity::Area) {
+            SurfaceDensity::Projected => ProjectedView::new(self, from, sides).map(View::Projected),
             _ => Some(View::Area(AreaView::new(*self, from))),
         }
     }

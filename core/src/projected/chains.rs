@@ -37,8 +37,9 @@ impl<'a, const N: usize> Layout<'a, N> {
     pub(super) fn of(above: &'a Above<N>) -> Option<Self> {
         let n = above.corners().len();
         let mut turns = [0_i8; N];
-        for i in 0..n {
-            turns[i] = above.turn(i, next(i, n));
+        let corners = above.corners();
+        for (i, turn) in turns[..n].iter_mut().enumerate() {
+            *turn = above.turn(&corners[i], &corners[next(i, n)]);
         }
         let turns = &turns[..n];
         if !turns.contains(&1) {
@@ -94,11 +95,10 @@ fn distance(a: usize, b: usize, n: usize) -> usize {
 }
 
 impl<const N: usize> Above<N> {
-    /// 1 counter-clockwise, −1 clockwise, 0 along a meridian.
+    /// [`Above::azimuth`] by the corners' indices.
     #[inline]
-    fn turn(&self, i: usize, j: usize) -> i8 {
-        let x = self.azimuth(&self.corners()[i], &self.corners()[j]);
-        i8::from(x > 0.0) - i8::from(x < 0.0)
+    pub(super) fn azimuth_between(&self, i: usize, j: usize) -> f64 {
+        self.azimuth(&self.corners()[i], &self.corners()[j])
     }
 
     /// The meridian at corner `k`, cut by the edge from `i` to `j`, counter-clockwise in azimuth.
@@ -157,7 +157,7 @@ impl<const N: usize> Chains<'_, N> {
         let (outer, inner) = (next(self.outer.at, n), previous(self.inner.at, n));
         let (outer_edge, inner_edge) = ([self.outer.at, outer], [self.inner.at, inner]);
         let inner_first =
-            self.inner.left > 1 && (self.outer.left == 1 || self.above.turn(inner, outer) > 0);
+            self.inner.left > 1 && (self.outer.left == 1 || self.above.azimuth_between(inner, outer) > 0.0);
         if inner_first {
             self.inner = Chain { at: inner, left: self.inner.left - 1 };
             Some(self.above.meridian(inner, outer_edge, false))

@@ -107,19 +107,30 @@ impl<const N: usize> Above<N> {
         &self.corners[..self.len]
     }
 
-    /// Cross product of the azimuths of two corners, positive when `b` is counter-clockwise of `a`;
-    /// what is only rounding is 0.
+    /// Cross product of the azimuths of two corners, positive when `b` is counter-clockwise of `a`.
     ///
     /// Derived: `n · (p_a × p_b)` is `det(zenith, a, b)` in the plane's homogeneous coordinates, by
     /// cofactors. Rounding of the zenith's coordinates then is one of the plane's, however long, narrow
     /// and far the polygon.
     #[inline]
     pub(super) fn azimuth(&self, a: &Corner, b: &Corner) -> f64 {
-        let d = b.place - a.place;
-        let cross = DVec3::new(-d.y, d.x, a.place.perp_dot(d));
-        let (x, size) = (self.zenith.dot(cross), self.zenith.abs().dot(cross.abs()));
-        if x.abs() > ROUNDING * size { x } else { 0.0 }
+        self.zenith.dot(cross(a.place, b.place))
     }
+
+    /// 1 where `b` is counter-clockwise of `a`, −1 clockwise, 0 as far as rounding can tell.
+    #[inline]
+    pub(super) fn turn(&self, a: &Corner, b: &Corner) -> i8 {
+        let cross = cross(a.place, b.place);
+        let (x, rounding) = (self.zenith.dot(cross), ROUNDING * self.zenith.abs().dot(cross.abs()));
+        i8::from(x > rounding) - i8::from(x < -rounding)
+    }
+}
+
+/// Cross product of two places in homogeneous coordinates.
+#[inline]
+fn cross(a: DVec2, b: DVec2) -> DVec3 {
+    let d = b - a;
+    DVec3::new(-d.y, d.x, a.perp_dot(d))
 }
 
 /// Relative rounding of [`Above::azimuth`].

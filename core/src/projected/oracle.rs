@@ -15,18 +15,7 @@ const GAUSS: [(f64, f64); 5] = [
 
 /// The part of the polygon above the receiver's horizon.
 fn above(from: &Receiver, corners: &[DVec3]) -> Vec<DVec3> {
-    let (point, normal) = (from.point.as_dvec3(), from.normal.as_dvec3());
-    let mut kept = Vec::new();
-    for (a, b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
-        let (za, zb) = (normal.dot(*a - point), normal.dot(*b - point));
-        if za > 0.0 {
-            kept.push(*a);
-        }
-        if (za > 0.0) != (zb > 0.0) {
-            kept.push(*a + (*b - *a) * (za / (za - zb)));
-        }
-    }
-    kept
+    beside(from.point.as_dvec3(), from.normal.as_dvec3(), corners)
 }
 
 /// Projected solid angle of a polygon (sr), to eight digits.
@@ -81,16 +70,10 @@ fn integral(normal: DVec3, a: DVec3, [u, v]: [DVec3; 2], depth: u32) -> f64 {
     sum * volume
 }
 
-/// Solid angle of the whole (sr).
-pub(crate) fn solid_angle_all(from: &Receiver, corners: &[DVec3]) -> f64 {
-    let corners: Vec<DVec3> = corners.iter().map(|c| *c - from.point.as_dvec3()).collect();
-    (1..corners.len() - 1).map(|i| triangle_solid_angle(corners[0], corners[i], corners[i + 1])).sum()
-}
-
-/// Solid angle of the part above the horizon (sr).
+/// Solid angle of the whole, above the horizon and below (sr).
 pub(crate) fn solid_angle(from: &Receiver, corners: &[DVec3]) -> f64 {
     let point = from.point.as_dvec3();
-    let corners: Vec<DVec3> = above(from, corners).iter().map(|c| *c - point).collect();
+    let corners: Vec<DVec3> = corners.iter().map(|c| *c - point).collect();
     (2..corners.len()).map(|i| triangle_solid_angle(corners[0], corners[i - 1], corners[i])).sum()
 }
 
@@ -106,33 +89,64 @@ pub(crate) fn double(corners: &[Vec3]) -> Vec<DVec3> {
     corners.iter().map(|c| c.as_dvec3()).collect()
 }
 
-/// Where the direction `wi` is in the polygon above the horizon: the share of the projected solid
-/// angle clockwise of its azimuth, seen from the zenith, and the share of `sin² θ` of its meridian
-/// that is nearer to the horizon.
-pub(crate) fn meridian(from: &Receiver, corners: &[DVec3], _at: DVec3, wi: DVec3) -> (f64, f64) {
+/// The part of a polygon on the side of a plane through `point` that `side` points to.
+fn beside(point: DVec3, side: DVec3, corners: &[DVec3]) -> Vec<DVec3> {
+    let mut kept = Vec::new();
+    for (a, b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
+        let (da, db) = (side.dot(*a - point), side.dot(*b - point));
+        if da > 0.0 {
+            kept.push(*a);
+        }
+        if (da > 0.0) != (db > 0.0) {
+            kept.push(*a + (*b - *a) * (da / (da - db)));
+        }
+    }
+    kept
+}
+
+/// Share of the projected solid angle whose azimuth is from `start` on to that of `wi`, counter-clockwise
+/// about the normal; from the first edge on when the polygon is beside the zenith.
+pub(crate) fn share_before(from: &Receiver, corners: &[DVec3], start: DVec3, wi: DVec3) -> f64 {
     let (point, normal) = (from.point.as_dvec3(), from.normal.as_dvec3());
-    let side = normal.cross(wi).normalize();
     let above = above(from, corners);
-    let (mut before, mut crossing) = (Vec::new(), Vec::new());
+    let share = |part: &[DVec3]| projected_solid_angle(from, part) / projected_solid_angle(from, &above);
+    let before = beside(point, -normal.cross(wi), &above);
+    if !is_around(from, &above) {
+        return share(&before);
+    }
+    let after_start = normal.cross(start);
+    if after_start.dot(wi) > 0.0 {
+        share(&beside(point, after_start, &before))
+    } else {
+        1.0 - share(&beside(point, -after_start, &beside(point, normal.cross(wi), &above)))
+    }
+}
+
+/// Whether the normal meets the polygon.
+fn is_around(from: &Receiver, corners: &[DVec3]) -> bool {
+    let (point, normal) = (from.point.as_dvec3(), from.normal.as_dvec3());
+    let next = corners.iter().cycle().skip(1);
+    let turns = corners.iter().zip(next).map(|(a, b)| normal.dot((*a - point).cross(*b - *a)));
+    let (low, high) = turns.fold((0.0_f64, 0.0_f64), |(low, high), t| (low.min(t), high.max(t)));
+    low == 0.0 || high == 0.0
+}
+
+/// `sin² θ` at the lower end of the polygon's part of the meridian of `wi`, and at its upper end.
+pub(crate) fn meridian(from: &Receiver, corners: &[DVec3], wi: DVec3) -> [f64; 2] {
+    let (point, normal) = (from.point.as_dvec3(), from.normal.as_dvec3());
+    let above = above(from, corners);
+    let (side, ahead) = (normal.cross(wi), normal.cross(wi).cross(normal));
+    let mut ends = Vec::new();
     for (a, b) in above.iter().zip(above.iter().cycle().skip(1)) {
-        let (sa, sb) = (side.dot(*a - point), side.dot(*b - point));
-        if sa < 0.0 {
-            before.push(*a);
-        }
-        if (sa < 0.0) != (sb < 0.0) {
-            let cut = *a + (*b - *a) * (sa / (sa - sb));
-            before.push(cut);
-            crossing.push((cut - point).normalize());
+        let (a, b) = (*a - point, *b - point);
+        let (da, db) = (side.dot(a), side.dot(b));
+        let cut = (a + (b - a) * (da / (da - db))).normalize();
+        if (da > 0.0) != (db > 0.0) && ahead.dot(cut) > 0.0 {
+            ends.push(cut.cross(normal).length_squared());
         }
     }
-    let share = projected_solid_angle(from, &before) / projected_solid_angle(from, &above);
-    let sin2 = |w: DVec3| w.cross(normal).length_squared();
-    // From the horizon's end to the zenith's.
-    crossing.sort_by(|a, b| sin2(*b).total_cmp(&sin2(*a)));
-    let [outer, inner] = crossing[..] else { return (share, f64::NAN) };
-    if outer.cross(normal).dot(inner.cross(normal)) < 0.0 {
-        let ahead = if outer.cross(normal).dot(wi.cross(normal)) > 0.0 { outer } else { inner };
-        return (f64::NAN, 1.0 - sin2(wi) / sin2(ahead));
+    if is_around(from, &above) {
+        ends.push(0.0);
     }
-    (share, (sin2(outer) - sin2(wi)) / (sin2(outer) - sin2(inner)))
+    [ends.iter().copied().fold(0.0, f64::max), ends.iter().copied().fold(1.0, f64::min)]
 }

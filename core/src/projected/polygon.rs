@@ -69,18 +69,18 @@ impl<const N: usize> ProjectedPolygon<N> {
             Layout::Around => polygon.sweep(&above, true, above.around()),
             Layout::Beside(chains) => polygon.sweep(&above, false, chains.meridians()),
         }
-        (polygon.total > 0.0 && polygon.total < f32::INFINITY).then_some(polygon)
+        // More than the hemisphere is rounding, of numbers too far apart for double precision.
+        (polygon.total > 0.0 && polygon.total < num::PI * 1.000_1).then_some(polygon)
     }
 
     /// Adds the sectors between meridians, which come in the order of their azimuth.
     #[inline]
     fn sweep(&mut self, above: &Above<N>, to_zenith: bool, mut cuts: impl Iterator<Item = Cut>) {
-        let corners = above.corners();
         let Some(mut before) = cuts.next() else { return };
         let mut scale = before.scale();
         for cut in cuts {
             let cut_scale = cut.scale();
-            let width = above.azimuth(&corners[before.corner], &corners[cut.corner]);
+            let width = above.azimuth_between(before.corner, cut.corner);
             if width > 0.0 {
                 let pole = DVec3 { z: width, ..before.outer.cross(cut.outer) } * (scale * cut_scale);
                 let [first, last] = [before.scaled(scale), cut.scaled(cut_scale)];
@@ -90,24 +90,24 @@ impl<const N: usize> ProjectedPolygon<N> {
         }
     }
 
-    /// Adds a sector, or its halves.
+    /// Adds a sector.
     #[inline]
     fn push(&mut self, sector: Sector) {
-        if let Some([first, last]) = sector.halves() {
-            self.push_one(first);
-            self.push_one(last);
-        } else {
-            self.push_one(sector);
+        if sector.is_wide() {
+            return self.push_halves(&sector);
+        }
+        if let Some(slot) = self.sectors.get_mut(self.len) {
+            *slot = sector;
+            self.total += slot.measure();
+            self.len += 1;
         }
     }
 
-    #[inline]
-    fn push_one(&mut self, sector: Sector) {
-        if let Some(slot) = self.sectors.get_mut(self.len) {
-            *slot = sector.measured();
-            self.total += slot.area();
-            self.len += 1;
-        }
+    #[cold]
+    fn push_halves(&mut self, sector: &Sector) {
+        let [first, last] = sector.halves();
+        self.push(first);
+        self.push(last);
     }
 
     /// The projected solid angle (sr), above 0 and at most π.
@@ -185,7 +185,7 @@ impl<const N: usize> ProjectedPolygon<N> {
                     meridian.height(place)
                 };
                 let v = sector.share_below(&meridian, above);
-                return [share, v].map(|u| u.clamp(0.0, num::ONE_MINUS_EPSILON));
+                return [share, v].map(|u| if u > 0.0 { u.min(num::ONE_MINUS_EPSILON) } else { 0.0 });
             }
             before += sector.area();
         }

@@ -51,18 +51,29 @@ impl Sector {
         let (qa, qb) = (first.square_rise(), last.square_rise());
         let mixed = first.rise * last.height_sum() + last.rise * first.height_sum();
         let inner_sin2 = eb.length_squared() * qa + ea.length_squared() * qb - ea.dot(eb) * mixed;
-        Self { first, last, pole, to_zenith, cos: a.dot(b), sin2: pole.length_squared(), inner_sin2, area: 0.0 }
+        Self {
+            first,
+            last,
+            pole,
+            to_zenith,
+            cos: a.dot(b),
+            sin2: pole.length_squared(),
+            inner_sin2,
+            area: 0.0,
+        }
     }
 
-    /// Both halves of a piece whose outer arc is much beyond a right angle.
+    /// True when the outer arc is much beyond a right angle.
+    #[inline]
+    pub(super) fn is_wide(&self) -> bool {
+        self.cos < -0.1
+    }
+
+    /// Both halves of a wide piece; they are not wide.
     ///
     /// Derived: the bisector of two unit vectors by their cross product, which keeps its digits when
     /// they are almost opposite.
-    #[inline]
-    pub(super) fn halves(&self) -> Option<[Self; 2]> {
-        if self.cos >= -0.1 {
-            return None;
-        }
+    pub(super) fn halves(&self) -> [Self; 2] {
         let (a, b) = (self.first.outer, self.last.outer);
         let doubled = 1.0 - self.cos;
         // Length of the sum of both: √(2 + 2 cos).
@@ -71,13 +82,14 @@ impl Sector {
         let both = self.first.toward(&self.last, 0.5).times(2.0 / length);
         let middle = Meridian { outer: Vec3 { z: both.outer.z, ..bisector }, ..both };
         let half = |first, last| Self::new(first, last, self.pole / length, self.to_zenith);
-        Some([half(self.first, middle), half(middle, self.last)])
+        [half(self.first, middle), half(middle, self.last)]
     }
 
-    /// The same with its area.
+    /// Works out the area.
     #[inline]
-    pub(super) fn measured(self) -> Self {
-        Self { area: self.area_to(1.0), ..self }
+    pub(super) fn measure(&mut self) -> f32 {
+        self.area = self.area_to(1.0);
+        self.area
     }
 
     /// Projected solid angle (sr).
@@ -165,7 +177,8 @@ impl Sector {
     #[inline]
     fn strip(&self, meridian: &Meridian) -> f32 {
         let outer2 = meridian.outer.length_squared();
-        let rise = if self.to_zenith { 1.0 } else { meridian.square_rise() / (outer2 + meridian.square_rise()) };
+        let rise =
+            if self.to_zenith { 1.0 } else { meridian.square_rise() / (outer2 + meridian.square_rise()) };
         0.5 * self.pole.z * rise / outer2
     }
 
@@ -203,4 +216,4 @@ impl Sector {
 const MAX_STEPS: usize = 16;
 
 /// Error of the inverted share: what [`Sector::area_to`] itself is good for.
-const TOLERANCE: f32 = 1e-6;
+const TOLERANCE: f32 = 4e-6;
