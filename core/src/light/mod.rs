@@ -12,6 +12,7 @@ mod directional;
 mod disk;
 mod error;
 mod point;
+mod polygon;
 mod rectangle;
 mod sphere;
 mod spot;
@@ -24,7 +25,10 @@ pub use density::SurfaceDensity;
 pub use directional::Directional;
 pub use error::LightError;
 pub use point::Point;
+pub use polygon::PolygonSolidAngle;
+pub use rectangle::RectangleSolidAngle;
 pub use spot::Spot;
+pub use triangle::TriangleSolidAngle;
 pub use view::{AreaView, NoView, SurfaceSample, SurfaceView, View};
 
 use crate::Rgb;
