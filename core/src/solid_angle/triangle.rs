@@ -172,13 +172,15 @@ impl SphericalTriangle {
     #[must_use]
     pub fn sample(&self, u: [f32; 2]) -> TrianglePlace {
         let arc = Arc::new(self, num::sin_cos(0.5 * u[0] * self.solid_angle));
-        let versine = u[1] * arc.versine;
-        let sin = num::sqrt(versine * (2.0 - versine));
+        // 1 − cos and 1 + cos each for itself: next to the second corner's opposite, one has no digits.
+        let (versine, below) = (u[1] * arc.versine, arc.versine_below + (1.0 - u[1]) * arc.versine);
+        let (sin, cos) =
+            (num::sqrt(versine * below), if versine < 1.0 { 1.0 - versine } else { below - 1.0 });
         let tangent = self.toward_first * arc.tangent[0] + self.toward_third * arc.tangent[1];
         // The place by the sines of the parts of both arcs: what the corners weigh, times distance.
         let [cos_base, sin_base] = self.base;
         let sin_max = num::sqrt(arc.versine * arc.versine_below);
-        let rest = (sin_max * (1.0 - versine) - (1.0 - arc.versine) * sin).max(0.0);
+        let rest = (sin_max * cos - (1.0 - arc.versine) * sin).max(0.0);
         let weights = [
             sin * (sin_base * arc.cos - cos_base * arc.sin).max(0.0) * self.nearness[0],
             rest * sin_base * self.nearness[1],
@@ -187,7 +189,7 @@ impl SphericalTriangle {
         let sum = weights[0] + weights[1] + weights[2];
         TrianglePlace {
             barycentric: if sum > 0.0 { [weights[1] / sum, weights[2] / sum] } else { [1.0, 0.0] },
-            direction: self.apex * (1.0 - versine) + tangent * sin,
+            direction: self.apex * cos + tangent * sin,
             distance: self.nearest * if sum > 0.0 { sin_max * sin_base / sum } else { 1.0 },
         }
     }
@@ -269,13 +271,16 @@ impl Arc {
         let w = sin_h * cot_half * cot_half * sin_a;
         let norm2 = z * z + w * w;
         let tangent = [cos_h * z - sin_h * w, 2.0 * per_n * x];
-        // As long as √norm2, but for round-off next to a needle.
+        // As long as the root of norm2, but for round-off next to a needle.
         let length = num::sqrt(tangent[0] * tangent[0] + tangent[1] * tangent[1]);
+        // The smaller of the two has the digits; they add up to 2.
+        let (versine, below) = (n * norm2 * inverse, (2.0 - n) * sin_a * sin_a * inverse);
+        let (versine, below) = if below < 1.0 { (2.0 - below, below) } else { (versine, 2.0 - versine) };
         Self {
             cos: (x - y) * (x + y) * inverse,
             sin: (2.0 * x * y * inverse).max(0.0),
-            versine: (n * norm2 * inverse).min(2.0),
-            versine_below: (2.0 - n) * sin_a * sin_a * inverse,
+            versine,
+            versine_below: below,
             tangent: if length > 0.0 { tangent.map(|t| t / length) } else { [1.0, 0.0] },
         }
     }
