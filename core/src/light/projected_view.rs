@@ -31,27 +31,22 @@ pub struct ProjectedView<S, const N: usize> {
 }
 
 impl<S: FlatShape, const N: usize> ProjectedView<S, N> {
-    /// `None` in the plane, behind a light that emits from its front, and when nothing is above the
-    /// horizon.
+    /// `None` in the plane and when nothing is above the horizon.
+    ///
+    /// * `chart` – the shape's, from the receiver
     #[inline]
     #[must_use]
-    pub fn new(shape: &S, from: &Receiver, sides: Sides) -> Option<Self> {
-        Some(Self { shape: *shape, polygon: projected(shape, from, sides)? })
+    pub fn new(shape: &S, from: &Receiver, chart: &Chart) -> Option<Self> {
+        let polygon = ProjectedPolygon::new(from.normal, chart, shape.corners().as_ref())?;
+        Some(Self { shape: *shape, polygon })
     }
 }
 
-/// What a receiver sees of the emitting sides above its horizon.
+/// True when the receiver of a chart is on a side that emits.
 #[inline]
-fn projected<S: FlatShape, const N: usize>(
-    shape: &S,
-    from: &Receiver,
-    sides: Sides,
-) -> Option<ProjectedPolygon<N>> {
-    let chart = shape.chart(from.point);
-    if sides == Sides::Front && !(chart.volume() < 0.0) {
-        return None;
-    }
-    ProjectedPolygon::new(from.normal, &chart, shape.corners().as_ref())
+pub(super) fn faces(chart: &Chart, sides: Sides) -> bool {
+    let volume = chart.volume();
+    volume < 0.0 || (sides == Sides::Both && volume > 0.0)
 }
 
 /// Projected solid angle of what `from` sees of the emitting sides above its horizon (sr).
@@ -60,7 +55,12 @@ pub(super) fn flat_projected_solid_angle<S: FlatShape, const N: usize>(
     from: &Receiver,
     sides: Sides,
 ) -> f32 {
-    projected::<S, N>(shape, from, sides).map_or(0.0, |polygon| polygon.projected_solid_angle())
+    let chart = shape.chart(from.point);
+    if !faces(&chart, sides) {
+        return 0.0;
+    }
+    let polygon = ProjectedPolygon::<N>::new(from.normal, &chart, shape.corners().as_ref());
+    polygon.map_or(0.0, |polygon| polygon.projected_solid_angle())
 }
 
 impl<S: FlatShape, const N: usize> SurfaceView for ProjectedView<S, N> {

@@ -3,7 +3,7 @@
 use super::{Shape, ShapeError, ShapeHit, SurfacePoint};
 use crate::geom::{Aabb, PreparedRay, Ray, unit};
 use crate::num;
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 /// A triangle. Its normal is `(b − a) × (c − a)`: counter-clockwise corners face the viewer.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,7 +36,7 @@ impl Triangle {
         [Vec3::new(x.x, y.x, z.x), Vec3::new(x.y, y.y, z.y), Vec3::new(x.z, y.z, z.z)]
     }
 
-    const fn from_corners([a, b, c]: [Vec3; 3]) -> Self {
+    pub(super) const fn from_corners([a, b, c]: [Vec3; 3]) -> Self {
         Self { axes: [Vec3::new(a.x, b.x, c.x), Vec3::new(a.y, b.y, c.y), Vec3::new(a.z, b.z, c.z)] }
     }
 
@@ -71,16 +71,22 @@ impl Triangle {
     #[inline]
     #[must_use]
     pub fn coordinates(&self, point: Vec3) -> (f32, f32) {
-        let [a, b, c] = self.corners();
-        let (e1, e2, r) = (b - a, c - a, point - a);
+        let [a, b, c] = self.corners().map(Vec3::as_dvec3);
+        let (e1, e2, r) = (b - a, c - a, point.as_dvec3() - a);
         let n = e1.cross(e2);
         let n2 = n.length_squared();
-        (r.cross(e2).dot(n) / n2, e1.cross(r).dot(n) / n2)
+        ((r.cross(e2).dot(n) / n2) as f32, (e1.cross(r).dot(n) / n2) as f32)
     }
 
     #[inline]
     fn cross(&self) -> Vec3 {
-        let [a, b, c] = self.corners();
+        self.cross_in_double().as_vec3()
+    }
+
+    /// In single precision, the normal of a triangle of aspect 10⁶ is 3° off, and its area 6 %.
+    #[inline]
+    fn cross_in_double(&self) -> DVec3 {
+        let [a, b, c] = self.corners().map(Vec3::as_dvec3);
         (b - a).cross(c - a)
     }
 }
