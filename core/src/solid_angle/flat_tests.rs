@@ -1,12 +1,13 @@
 //! Rectangles and triangles against double precision, over distances, angles, aspects and scales.
 
 use super::{RectanglePlace, SphericalRectangle, SphericalTriangle};
-use crate::num::{hash, hash2, unit_f32};
+use crate::num::{TAU, hash, hash2, unit_f32};
 use glam::{DVec3, Vec3};
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_3};
 use std::vec::Vec;
 
 const DISTANCES: [f64; 7] = [1e-6, 1e-3, 0.1, 1.0, 30.0, 1e3, 1e6];
-const ANGLES: [f64; 4] = [0.0, 1.0471975, 1.4, std::f64::consts::FRAC_PI_2 - 1e-3];
+const ANGLES: [f64; 4] = [0.0, FRAC_PI_3, 1.4, FRAC_PI_2 - 1e-3];
 const ASPECTS: [f64; 5] = [1.0, 1e3, 1e6, 1e-3, 1e-6];
 const SCALES: [f64; 3] = [1e-6, 1.0, 1e6];
 
@@ -73,7 +74,7 @@ fn cases() -> Vec<Case> {
         for aspect in ASPECTS {
             for distance in DISTANCES {
                 for angle in ANGLES {
-                    for turn in [0.0, 0.13, 0.785, 1.5707963, 3.3] {
+                    for turn in [0.0, 0.13, 0.7, FRAC_PI_2, 3.3] {
                         let size = if aspect > 1.0 { [1.0, 1.0 / aspect] } else { [aspect, 1.0] };
                         let (s, c) = (angle.sin() * distance, angle.cos() * distance);
                         let corner =
@@ -269,7 +270,7 @@ fn random_bits_give_proper_numbers_or_nothing() {
         if let Some(seen) = SphericalRectangle::new([any(), any()], [any().abs(), any().abs()], any().abs()) {
             let place = seen.sample(u);
             let back = seen.invert(&place);
-            assert!(seen.solid_angle() > 0.0 && seen.solid_angle() < 6.2832, "{seen:?}");
+            assert!(seen.solid_angle() > 0.0 && seen.solid_angle() <= TAU.next_up(), "{seen:?}");
             assert!(place.fraction.iter().all(|f| (0.0..=1.0).contains(f)), "{seen:?} {place:?}");
             assert!(place.offset.iter().all(|x| x.abs() <= 1.001), "{seen:?} {place:?}");
             assert!(back.iter().all(|u| (0.0..1.0).contains(u)), "{seen:?} {place:?} {back:?}");
@@ -278,7 +279,7 @@ fn random_bits_give_proper_numbers_or_nothing() {
         if let Some(seen) = SphericalTriangle::new(point(), &[point(), point(), point()]) {
             let place = seen.sample(u);
             let back = seen.invert(&place);
-            assert!(seen.solid_angle() > 0.0 && seen.solid_angle() < 6.2832, "{seen:?}");
+            assert!(seen.solid_angle() > 0.0 && seen.solid_angle() <= TAU.next_up(), "{seen:?}");
             assert!(place.barycentric.iter().all(|f| (0.0..=1.0).contains(f)), "{seen:?} {place:?}");
             assert!(!(place.distance < 0.0 || place.direction.is_nan()), "{seen:?} {place:?}");
             assert!(back.iter().all(|u| (0.0..1.0).contains(u)), "{seen:?} {place:?} {back:?}");

@@ -1,6 +1,6 @@
 //! Uniform directions toward a rectangle.
 
-use crate::num::{self, ONE_MINUS_EPSILON, TAU};
+use crate::num::{self, TAU};
 
 /// Least height over the plane, in units of the farthest coordinate: there the square still has all
 /// its digits. `f32` coordinates place no receiver this near.
@@ -272,7 +272,7 @@ impl SphericalRectangle {
             one_corner(&part, &self.strip, &self.low, &self.strip.column(part.high())).0
         };
         let u = [share / self.solid_angle, self.strip.share(x[0], [y[0], y[1] * self.y.size])];
-        u.map(|u| u.max(0.0).min(ONE_MINUS_EPSILON))
+        u.map(num::clamp_unit)
     }
 
     /// The column below which is the share `u` of the solid angle, and how far from the low one.

@@ -1,6 +1,6 @@
 //! Uniform directions toward a triangle.
 
-use crate::num::{self, ONE_MINUS_EPSILON};
+use crate::num;
 use glam::{DVec3, Vec3};
 
 /// A place on a triangle and the way there.
@@ -204,7 +204,7 @@ impl SphericalTriangle {
         } else {
             self.invert_direction(place.direction)
         };
-        u.map(|u| u.max(0.0).min(ONE_MINUS_EPSILON))
+        u.map(num::clamp_unit)
     }
 
     fn invert_barycentric(&self, [b1, b2]: [f32; 2]) -> [f32; 2] {
