@@ -80,3 +80,42 @@ impl<S: FlatShape, const N: usize> SurfaceView for ProjectedView<S, N> {
         Some(self.polygon.invert(self.shape.place_of(at.point)))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::light::{SurfaceDensity, View};
+    use crate::shape::{Rectangle, Triangle};
+
+    fn at(point: Vec3) -> Receiver {
+        Receiver { point, normal: Vec3::new(0.0, 0.6, 0.8) }
+    }
+
+    fn check<S: FlatShape<View = View<S, W, P>>, W: SurfaceView, P: SurfaceView>(shape: S) {
+        let view = |from: &Receiver, sides| shape.view(from, SurfaceDensity::Projected, sides);
+        let (below, above) = (at(Vec3::ZERO), at(Vec3::Z * 3.0));
+        assert!(view(&above, Sides::Front).is_none() && view(&at(Vec3::Z), Sides::Both).is_none());
+        assert_eq!(shape.projected_solid_angle(&above, Sides::Front), Some(0.0));
+        let (front, e) = (view(&below, Sides::Front), shape.projected_solid_angle(&below, Sides::Front));
+        let (front, e) = (front.expect("a view"), e.expect("a closed form"));
+        for i in 0..100_u8 {
+            let u = [f32::from(i % 10) * 0.1 + 0.03, f32::from(i / 10) * 0.1 + 0.05];
+            let drawn = front.sample(u).expect("a sample");
+            let pdf = front.pdf_solid_angle(&drawn.at, drawn.wi, 1.0).expect("a density");
+            assert!((below.normal.dot(drawn.wi) / (pdf * e) - 1.0).abs() < 1e-6);
+            assert!((drawn.wi * drawn.distance - drawn.at.point).length() < 1e-6);
+            let v = front.invert(&drawn.at, drawn.wi).expect("uniforms");
+            assert!((u[0] - v[0]).abs().max((u[1] - v[1]).abs()) < 5e-5, "{u:?} {v:?}");
+            assert_eq!(front.pdf_solid_angle(&drawn.at, -drawn.wi, 1.0), None);
+        }
+    }
+
+    #[test]
+    fn views_are_consistent_and_dark_from_behind_and_in_the_plane() {
+        check(Rectangle::new(Vec3::new(0.1, 0.3, 1.0), Vec3::Y, Vec3::X * 0.6).unwrap());
+        check(
+            Triangle::new(Vec3::new(-1.0, -1.0, 1.0), Vec3::new(0.2, 2.0, 1.0), Vec3::new(1.0, 0.0, 1.0))
+                .unwrap(),
+        );
+    }
+}
