@@ -15,7 +15,7 @@ use halflight::glam::Vec3;
 use halflight::light::{
     AreaLight, Density, Emitter, LightSample, Receiver, SampledShape, Sides, SurfaceDensity, SurfaceView,
 };
-use halflight::shape::{Cylinder, Disk, Rectangle, Sphere, Triangle};
+use halflight::shape::{Cylinder, Disk, Polygon, Rectangle, Sphere, Triangle};
 use halflight_tests::random::Uniforms;
 use halflight_tests::scenes::bumpy_ground;
 use halflight_tests::statistics::Moments;
@@ -62,6 +62,7 @@ fn main() {
     light(&mut criterion, &mut lines, "rectangle", rectangle);
     let [a, b, c] = [0, 1, 2].map(|i| corners(3)[i]);
     light(&mut criterion, &mut lines, "triangle", Triangle::new(a, b, c).expect("a triangle"));
+    light(&mut criterion, &mut lines, "polygon", Polygon::new(&corners(6)).expect("a hexagon"));
     let disk = Disk::new(Vec3::ZERO, Vec3::Y * half, Vec3::X * half).expect("a disk");
     light(&mut criterion, &mut lines, "disk", disk);
     light(&mut criterion, &mut lines, "sphere", Sphere::new(Vec3::Z * half, half).expect("a sphere"));
