@@ -3,6 +3,13 @@
 //! Radiance is 1 throughout. Each irradiance is compared with an integral over the surface in the
 //! tests below, so a slip in a formula does not become the truth.
 
+mod adaptive;
+mod curved;
+mod outlook;
+mod polygon;
+
+pub use outlook::{Amounts, CELLS, Outlook};
+
 use crate::quadrature::integrate_square;
 use halflight::glam::DVec3;
 use std::f64::consts::{PI, TAU};
@@ -116,7 +123,7 @@ pub fn polygon_irradiance(point: DVec3, normal: DVec3, corners: &[DVec3]) -> f64
 }
 
 /// The part of a polygon on the side of a plane through the origin.
-fn clip(corners: &[DVec3], normal: DVec3) -> Vec<DVec3> {
+pub(crate) fn clip(corners: &[DVec3], normal: DVec3) -> Vec<DVec3> {
     let mut above = Vec::new();
     for (a, b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
         let (da, db) = (normal.dot(*a), normal.dot(*b));
