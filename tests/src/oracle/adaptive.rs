@@ -3,9 +3,10 @@
 use crate::quadrature::nodes_of_square;
 use halflight::glam::DVec3;
 
-/// How large a box may be against its distance before it is split. The five-point rule then errs by
-/// about 1e-9: the nearest singularity of `1 / d` is four half-widths away.
-const SPLIT: f64 = 0.5;
+/// How large a box may be against its distance before it is split, as the sum of its sides. The
+/// five-point rule then errs by less than 1e-7: the nearest singularity of `1 / d` is some four
+/// half-widths away.
+const SPLIT: f64 = 1.0;
 
 /// Splits in a row: more than 1e-16 of the piece along each axis.
 const DEEPEST: u32 = 120;
@@ -37,7 +38,7 @@ impl Box2 {
     }
 
     /// The longest way across along each axis, and the distance from the origin, from nine points.
-    fn extent(&self, map: &impl Fn(f64, f64) -> Place) -> ([f64; 2], f64) {
+    fn extent(&self, map: &(impl Fn(f64, f64) -> Place + ?Sized)) -> ([f64; 2], f64) {
         let along = |[a, b]: [f64; 2], k: usize| a + (b - a) * 0.5 * k as f64;
         let at: [[DVec3; 3]; 3] =
             std::array::from_fn(|i| std::array::from_fn(|j| map(along(self.s, i), along(self.t, j)).0));
@@ -53,7 +54,7 @@ impl Box2 {
 ///
 /// Boxes are halved along their longer side until they are small against their distance from the
 /// origin, so that near and grazing surfaces take a few more levels and nothing else.
-pub(super) fn visit(map: &impl Fn(f64, f64) -> Place, mut f: impl FnMut(DVec3, DVec3, f64)) {
+pub(super) fn visit(map: &(impl Fn(f64, f64) -> Place + ?Sized), mut f: impl FnMut(DVec3, DVec3, f64)) {
     let mut stack = vec![Box2 { s: [0.0, 1.0], t: [0.0, 1.0], depth: 0 }];
     while let Some(part) = stack.pop() {
         let ([s, t], near) = part.extent(map);

@@ -75,6 +75,15 @@ impl Curved {
         }
     }
 
+    /// True when all of it is above the horizon, surely.
+    fn is_above(&self, normal: DVec3) -> bool {
+        match *self {
+            Self::Ellipse { centre, u, v } => normal.dot(centre) > normal.dot(u).hypot(normal.dot(v)),
+            Self::Sphere { centre, radius, .. } => normal.dot(centre) > radius,
+            Self::Tube { base, axis, radius, .. } => normal.dot(base).min(normal.dot(base + axis)) > radius,
+        }
+    }
+
     /// Edges of cells along `s` and `t`, in shares of what faces the receiver.
     fn cells(&self) -> [Edges; 2] {
         let quarters = graded(0.0, 1.0, 0.5, 1e6);
@@ -180,10 +189,15 @@ impl Round {
             return amounts;
         }
         let (ds, dt) = (s[1] - s[0], t[1] - t[0]);
-        amounts.add_facing(&|x, y| {
+        let whole = |x: f64, y: f64| {
             let (p, n, area) = shape.at(s[0] + ds * x, t[0] + dt * y);
             (p, n, area * ds * dt)
-        });
+        };
+        if shape.is_above(normal) {
+            amounts.add(normal, &whole);
+            return amounts;
+        }
+        amounts.add_facing(&whole);
         let breaks = breaks(&shape, normal, s, t);
         for piece in breaks.windows(2) {
             add_piece(&mut amounts, &shape, normal, s, [piece[0], piece[1]]);

@@ -123,7 +123,7 @@ pub fn polygon_irradiance(point: DVec3, normal: DVec3, corners: &[DVec3]) -> f64
 }
 
 /// The part of a polygon on the side of a plane through the origin.
-pub(crate) fn clip(corners: &[DVec3], normal: DVec3) -> Vec<DVec3> {
+fn clip(corners: &[DVec3], normal: DVec3) -> Vec<DVec3> {
     let mut above = Vec::new();
     for (a, b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
         let (da, db) = (normal.dot(*a), normal.dot(*b));
