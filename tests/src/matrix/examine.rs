@@ -13,12 +13,13 @@ use halflight::glam::DVec3;
 use halflight::light::{
     AreaLight, Density, Emitter, SampledShape, SurfaceDensity, SurfaceSample, SurfaceView,
 };
+use std::sync::Arc;
 
 /// Samples of the checks that need no statistics.
 const FEW: usize = 512;
 
 /// Samples of the statistical checks, along the axes and turned.
-const MANY: [u32; 2] = [1 << 14, 1 << 17];
+const MANY: [u32; 2] = [1 << 14, 1 << 16];
 
 /// How far a queried density may be from that of the sample, relatively.
 const QUERY: f64 = 1e-5;
@@ -60,14 +61,14 @@ struct Subject<'a, S: SampledShape> {
     light: AreaLight<S>,
     method: SurfaceDensity,
     view: Option<S::View>,
-    truth: Truth,
+    truth: Arc<Truth>,
 }
 
 /// Runs every check and notes what it finds.
 pub(super) fn examine<S: Specimen>(setup: &Setup<S>, method: SurfaceDensity, measured: &mut Measured) {
     let light = AreaLight::new(setup.shape, Rgb::WHITE).expect("a proper radiance");
     let view = light.view(&setup.from, method);
-    let subject = Subject { setup, light, method, view, truth: Truth::new(setup) };
+    let subject = Subject { setup, light, method, view, truth: Truth::of(setup) };
     measured.note(setup.what, subject.closed_form());
     match subject.drawn(measured) {
         Err(failure) => measured.note(setup.what, Err(failure)),
@@ -161,7 +162,7 @@ impl<S: Specimen> Subject<'_, S> {
         if kind == Kind::Own && !Kind::may_be_own(self.setup.shape.patch(), self.method) {
             measured.note(what, Err(Failure(format!("no density that the shape should have: {nearest}"))));
         }
-        measured.note(what, self.inverts(&view, drawn));
+        measured.note(what, self.inverts(&view, drawn, kind));
         let mut random = Uniforms::new(32);
         let (from, normal) = (self.setup.from.point.as_dvec3(), self.setup.from.normal);
         let tally = Tally::of(MANY[usize::from(self.setup.aligned)], || {
@@ -173,7 +174,7 @@ impl<S: Specimen> Subject<'_, S> {
     }
 
     /// The inverse returns the uniforms, as far as the last bits of place and direction know them.
-    fn inverts(&self, view: &S::View, drawn: &[([f32; 2], Drawn)]) -> Verdict {
+    fn inverts(&self, view: &S::View, drawn: &[([f32; 2], Drawn)], kind: Kind) -> Verdict {
         let inner = |x: f32| x > EDGE && x < 1.0 - EDGE;
         for (u, drawn) in drawn.iter().filter(|(u, _)| inner(u[0]) && inner(u[1])) {
             let Some(v) = view.invert(&drawn.sample.at, drawn.sample.wi) else {
@@ -183,7 +184,7 @@ impl<S: Specimen> Subject<'_, S> {
             // 0 and 1 may be the same place.
             let off = u.iter().zip(v).map(|(a, b)| (a - b).abs().min(1.0 - (a - b).abs()));
             let off = f64::from(off.fold(0.0, f32::max));
-            let tolerance = self.inverse_tolerance(drawn);
+            let tolerance = self.inverse_tolerance(drawn, kind);
             ensure!(off <= tolerance, "{u:?} became {v:?}, may be off by {tolerance:.1e}");
         }
         Ok(())
@@ -192,7 +193,7 @@ impl<S: Specimen> Subject<'_, S> {
     /// How well the uniforms of a place are known. The place is rounded by the grid of the light's
     /// numbers, and by that of the direction; a uniform changes with it by at most the density over
     /// the area times the extent of what is seen across.
-    fn inverse_tolerance(&self, drawn: &Drawn) -> f64 {
+    fn inverse_tolerance(&self, drawn: &Drawn, kind: Kind) -> f64 {
         let eps = 4.0 * f64::from(f32::EPSILON);
         let (distance, cos) = (f64::from(drawn.sample.distance), f64::from(drawn.cos_light()));
         let from = self.setup.from.point.as_dvec3();
@@ -204,6 +205,8 @@ impl<S: Specimen> Subject<'_, S> {
         };
         let rounding = eps * (place.max_element() + distance / cos);
         let pdf_area = f64::from(drawn.pdf) * cos / (distance * distance);
-        1e-4 + rounding * pdf_area * self.setup.size.min(4.0 * distance)
+        // By direction, most of what is seen of a near light is as near as the place.
+        let near = if kind == Kind::Area { self.setup.size } else { self.setup.size.min(4.0 * distance) };
+        1e-4 + rounding * pdf_area * near
     }
 }

@@ -30,7 +30,7 @@ pub struct Measured {
     pub density_error: f64,
     /// Worst mean, in standard errors off the truth beyond what rounding may be.
     pub mean_sigmas: f64,
-    /// Worst mean, relatively off the truth.
+    /// Worst mean, relatively off the truth beyond what rounding may be.
     pub mean_error: f64,
     /// Means that were judged.
     pub means: u32,

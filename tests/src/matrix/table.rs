@@ -51,8 +51,8 @@ const WIDTHS: [usize; 5] = [3, 5, 6, 4, 7];
 /// What the letters and numbers are.
 const LEGEND: &str = "\
 Each entry: the densities that were met (A area, S solid angle, P projected solid angle, o one of its
-own); the worst difference of queried and sampled density; the worst mean, off the truth in percent
-and, beyond what rounding may be, in standard errors; failed cells of all.";
+own); the worst difference of queried and sampled density; the worst mean, off the truth beyond what
+rounding may be, in percent and in standard errors; failed cells of all.";
 
 impl Table {
     /// Takes in one cell.

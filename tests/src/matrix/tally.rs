@@ -18,7 +18,7 @@ const SLIVER: f64 = 1e-3;
 /// What a mean came out as.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Mean {
-    /// Off the truth, relatively.
+    /// Off the truth beyond what rounding may be, relatively.
     pub(super) relative: f64,
     /// Off the truth, in standard errors, after what rounding may be off.
     pub(super) sigmas: f64,
@@ -76,7 +76,7 @@ impl Tally {
             "irradiance {:e} instead of {irradiance:e}: {sigmas:.1} standard errors of {error:.1e} off",
             moments.mean()
         );
-        Ok(Some(Mean { relative: off / irradiance, sigmas }))
+        Ok(Some(Mean { relative: beyond / irradiance, sigmas }))
     }
 
     /// Places are as frequent as the density says: Pearson's test over cells of the light.

@@ -2,8 +2,10 @@
 
 use super::setup::Setup;
 use crate::lights::Specimen;
-use crate::oracle::{Amounts, CELLS, Outlook};
+use crate::oracle::{Amounts, CELLS, Outlook, Patch};
 use halflight::glam::DVec3;
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// How far rounding may turn a receiver's normal (rad).
 const TURN: f64 = 2.0 * f32::EPSILON as f64;
@@ -21,6 +23,9 @@ pub(super) enum State {
     /// The last bits of the input decide.
     Undecided,
 }
+
+/// Truths that have been worked out: they are the same for every density.
+static KNOWN: Mutex<BTreeMap<String, Arc<Truth>>> = Mutex::new(BTreeMap::new());
 
 /// The truth about a light from one receiver.
 #[derive(Debug, Clone)]
@@ -40,8 +45,22 @@ pub(super) struct Truth {
 }
 
 impl Truth {
-    pub(super) fn new<S: Specimen>(setup: &Setup<S>) -> Self {
-        let outlook = Outlook::new(&setup.shape.patch(), setup.from.point.as_dvec3());
+    /// The truth of a setup, worked out once.
+    pub(super) fn of<S: Specimen>(setup: &Setup<S>) -> Arc<Self> {
+        // Debug prints every number to its last digit.
+        let key = format!("{:?} {:?}", setup.shape, setup.from);
+        let known = || KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+        let found = known().get(&key).cloned();
+        found.unwrap_or_else(|| {
+            let truth = Arc::new(Self::new(setup));
+            known().insert(key, Arc::clone(&truth));
+            truth
+        })
+    }
+
+    fn new<S: Specimen>(setup: &Setup<S>) -> Self {
+        let (patch, point) = (setup.shape.patch(), setup.from.point.as_dvec3());
+        let outlook = Outlook::new(&patch, point);
         let normal = setup.from.normal.as_dvec3().normalize();
         let cells = outlook.seen(DVec3::ZERO, normal);
         let total = sum(&cells);
@@ -52,8 +71,16 @@ impl Truth {
         for (axis, turn) in turns.into_iter().enumerate() {
             let step =
                 DVec3::from_array(std::array::from_fn(|i| f64::from(u8::from(i == axis)))) * setup.grid;
-            let [a, b] =
-                [1.0, -1.0].map(|k| outlook.seen(step * k, (normal + turn * (TURN * k)).normalize()));
+            let [a, b] = [1.0, -1.0].map(|k| {
+                let normal = (normal + turn * (TURN * k)).normalize();
+                match patch {
+                    // What is computed from the differences of corners moves with one of them.
+                    Patch::Triangle(p, q, r) if !setup.aligned => {
+                        Outlook::new(&Patch::Triangle(p, q, r + step * k), point).seen(step * k, normal)
+                    }
+                    _ => outlook.seen(step * k, normal),
+                }
+            });
             for i in 0..CELLS {
                 slack[i] = slack[i].plus(farther(&cells[i], &a[i], &b[i]));
             }
@@ -61,14 +88,14 @@ impl Truth {
             total_slack = total_slack.plus(farther(&total, &a, &b));
             ever_seen |= a.solid_angle.max(b.solid_angle) > 0.0;
         }
-        let firm = total_slack.irradiance <= LOOSEST * total.irradiance
+        let state = if ever_seen { State::Seen } else { State::Dark };
+        let mut truth = Self { outlook, cells, total, slack, total_slack, state };
+        let firm = truth.rounding() <= LOOSEST * total.irradiance
             && total_slack.solid_angle <= LOOSEST * total.solid_angle;
-        let state = match (ever_seen, firm && total.irradiance > 0.0) {
-            (false, _) => State::Dark,
-            (true, false) => State::Undecided,
-            (true, true) => State::Seen,
-        };
-        Self { outlook, cells, total, slack, total_slack, state }
+        if ever_seen && !(firm && total.irradiance > 0.0) {
+            truth.state = State::Undecided;
+        }
+        truth
     }
 
     /// What single precision may be off in an irradiance, whoever computes it: 1e-5 of it, what
