@@ -13,6 +13,7 @@ use halflight::glam::DVec3;
 use halflight::light::{
     AreaLight, Density, Emitter, SampledShape, SurfaceDensity, SurfaceSample, SurfaceView,
 };
+use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// Samples of the checks that need no statistics.
@@ -135,7 +136,7 @@ impl<S: Specimen> Subject<'_, S> {
             return Ok(());
         };
         let closed = f64::from(closed);
-        ensure!(closed >= 0.0 && closed <= 3.1416, "projected solid angle {closed}");
+        ensure!((0.0..=1.000_001 * PI).contains(&closed), "projected solid angle {closed}");
         let truth = self.truth.total.irradiance;
         let off = (closed - truth).abs();
         let undecided = self.truth.state == State::Undecided;

@@ -185,3 +185,76 @@ impl Pearson {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::matrix::setup::Setup;
+    use crate::random::Uniforms;
+    use halflight::Rgb;
+    use halflight::glam::{DVec3, Vec3};
+    use halflight::light::{AreaLight, Receiver, SurfaceDensity};
+    use halflight::shape::Sphere;
+
+    /// A sphere two radii away: by area, or by the cone that it fills.
+    fn ball() -> Setup<Sphere> {
+        Setup {
+            shape: Sphere::new(Vec3::Z * 2.0, 1.0).unwrap(),
+            from: Receiver { point: Vec3::ZERO, normal: Vec3::Z },
+            grid: DVec3::splat(1e-7),
+            size: 2.0,
+            aligned: true,
+            what: "facing",
+        }
+    }
+
+    /// Samples worth `1 / factor` of what they are, with `half` of them in half of the uniforms.
+    fn tally(method: SurfaceDensity, factor: f64, half: f32, n: u32) -> (Tally, std::sync::Arc<Truth>) {
+        let setup = ball();
+        let truth = Truth::of(&setup);
+        let light = AreaLight::new(setup.shape, Rgb::WHITE).unwrap();
+        let view = light.view(&setup.from, method).unwrap();
+        let mut random = Uniforms::new(1);
+        let tally = Tally::of(n, || {
+            let [u, v] = random.two();
+            let v = if v < half { 0.5 * v / half } else { 0.5 + 0.5 * (v - half) / (1.0 - half) };
+            let drawn = crate::matrix::examine::draw(&view, [u, v])?;
+            let worth = f64::from(drawn.sample.wi.z / drawn.pdf) / factor;
+            Some((truth.outlook.cell(drawn.sample.at.point.as_dvec3()), worth))
+        });
+        (tally, truth)
+    }
+
+    const BOTH: [(SurfaceDensity, Kind); 2] =
+        [(SurfaceDensity::Area, Kind::Area), (SurfaceDensity::SolidAngle, Kind::SolidAngle)];
+
+    #[test]
+    fn honest_densities_pass() {
+        for (method, kind) in BOTH {
+            let (tally, truth) = tally(method, 1.0, 0.5, 1 << 17);
+            tally.check_mean(&truth, kind).unwrap().expect("light tails");
+            tally.check_places(&truth, kind).unwrap();
+            tally.check_places(&truth, Kind::Own).unwrap();
+            tally.check_variance(&truth, kind).unwrap();
+        }
+    }
+
+    #[test]
+    fn a_density_two_percent_off_fails_by_mean_by_cell_and_by_variance() {
+        let (tally, truth) = tally(SurfaceDensity::SolidAngle, 1.02, 0.5, 1 << 18);
+        assert!(tally.check_mean(&truth, Kind::SolidAngle).is_err());
+        assert!(tally.check_mean(&truth, Kind::Own).is_err());
+        assert!(tally.check_places(&truth, Kind::Own).is_err());
+        assert!(tally.check_variance(&truth, Kind::SolidAngle).is_err());
+    }
+
+    #[test]
+    fn places_two_percent_denser_on_one_half_fail() {
+        for (method, kind) in BOTH {
+            // Three of four places by area are out of sight.
+            let n = if kind == Kind::Area { 1 << 20 } else { 1 << 18 };
+            let (tally, truth) = tally(method, 1.0, 0.51, n);
+            assert!(tally.check_places(&truth, kind).is_err(), "{kind:?}");
+        }
+    }
+}

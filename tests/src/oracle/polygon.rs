@@ -64,8 +64,7 @@ impl Flat {
             return amounts;
         }
         let mut part = self.corners.clone();
-        for i in 0..2 {
-            let (axis, edges, k) = (self.axes[i], &self.edges[i], cell[i]);
+        for ((&axis, edges), k) in self.axes.iter().zip(&self.edges).zip(cell) {
             if k > 0 {
                 part = cut(&part, Plane { axis, at: edges[k] });
             }
