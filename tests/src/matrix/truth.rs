@@ -74,9 +74,10 @@ impl Truth {
             let [a, b] = [1.0, -1.0].map(|k| {
                 let normal = (normal + turn * (TURN * k)).normalize();
                 match patch {
-                    // What is computed from the differences of corners moves with one of them.
+                    // What is computed from the differences of corners moves with them.
                     Patch::Triangle(p, q, r) if !setup.aligned => {
-                        Outlook::new(&Patch::Triangle(p, q, r + step * k), point).seen(step * k, normal)
+                        Outlook::new(&Patch::Triangle(p, q - step * k, r + step * k), point)
+                            .seen(step * k, normal)
                     }
                     _ => outlook.seen(step * k, normal),
                 }
