@@ -12,6 +12,7 @@ mod directional;
 mod disk;
 mod error;
 mod point;
+mod projected_view;
 mod rectangle;
 mod sphere;
 mod spot;
@@ -24,6 +25,9 @@ pub use density::SurfaceDensity;
 pub use directional::Directional;
 pub use error::LightError;
 pub use point::Point;
+pub use projected_view::{FlatShape, ProjectedView};
+
+use projected_view::flat_projected_solid_angle;
 pub use spot::Spot;
 pub use view::{AreaView, NoView, SurfaceSample, SurfaceView, View};
 
