@@ -5,6 +5,7 @@ mod bvh;
 mod closed_forms;
 mod delta;
 mod estimators;
+mod invariance;
 mod lights;
 mod pictures;
 mod shapes;

@@ -53,7 +53,7 @@ fn tiles_and_passes_do_not_change_a_bit() {
 }
 
 /// All lengths times `k`, with the radiances kept.
-fn scaled(stage: &Stage, k: f32) -> Stage {
+pub(crate) fn scaled(stage: &Stage, k: f32) -> Stage {
     use halflight::build::Geometry;
     let mut stage = stage.clone();
     stage.0.camera.view.origin *= k;
