@@ -41,13 +41,13 @@ pub(crate) enum Plan {
 /// # Errors
 /// When a flag has no use with the technique that was asked for.
 pub(crate) fn check(choices: &Choices) -> Result<(), Failure> {
-    use Technique::{Auto, Bsdf, Light, Mis, Occlusion};
+    use Technique::{Auto, Bsdf, Control, Light, Mis, Occlusion};
     let uses = [
-        ("--heuristic", choices.heuristic.is_some(), &[Auto, Mis][..]),
-        ("--light-samples", choices.light_samples.is_some(), &[Auto, Light, Bsdf, Mis]),
-        ("--bsdf-samples", choices.bsdf_samples.is_some(), &[Auto, Bsdf, Mis]),
-        ("--lights", choices.lights != Lights::Auto, &[Auto, Light, Bsdf, Mis]),
-        ("--choose", choices.choose != Choose::Auto, &[Auto, Light, Bsdf, Mis]),
+        ("--heuristic", choices.heuristic.is_some(), &[Auto, Mis, Control][..]),
+        ("--light-samples", choices.light_samples.is_some(), &[Auto, Light, Bsdf, Mis, Control]),
+        ("--bsdf-samples", choices.bsdf_samples.is_some(), &[Auto, Bsdf, Mis, Control]),
+        ("--lights", choices.lights != Lights::Auto, &[Auto, Light, Bsdf, Mis, Control]),
+        ("--choose", choices.choose != Choose::Auto, &[Auto, Light, Bsdf, Mis, Control]),
         ("--occlusion-distance", choices.occlusion_distance.is_some(), &[Occlusion]),
     ];
     match uses.iter().find(|(_, given, with)| *given && !with.contains(&choices.technique)) {
@@ -68,6 +68,7 @@ const fn technique_name(technique: Technique) -> &'static str {
         Technique::Light => "light",
         Technique::Bsdf => "bsdf",
         Technique::Mis => "mis",
+        Technique::Control => "control",
         Technique::Occlusion => "occlusion",
     }
 }
@@ -114,6 +115,7 @@ fn technique(choices: &Choices, light_samples: Option<u32>, bsdf_samples: Option
         Technique::Light => Combine::Light,
         Technique::Bsdf => Combine::Bsdf,
         Technique::Mis => Combine::Mis(weights),
+        Technique::Control => Combine::Control(weights),
         _ if light_samples == Some(0) && choices.light_samples.is_none() => Combine::Bsdf,
         _ if bsdf_samples == Some(0) && choices.bsdf_samples.is_none() => Combine::Light,
         _ => Combine::Auto(weights),
@@ -202,6 +204,7 @@ const fn technique_flags(technique: Combine) -> (&'static str, Option<&'static s
         Combine::Bsdf => ("bsdf", None),
         Combine::Mis(weights) => ("mis", Some(weights_flag(weights))),
         Combine::Auto(weights) => ("auto", Some(weights_flag(weights))),
+        Combine::Control(weights) => ("control", Some(weights_flag(weights))),
     }
 }
 

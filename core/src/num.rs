@@ -27,6 +27,13 @@ pub fn sqrt(x: f32) -> f32 {
     libm::sqrtf(if x > 0.0 { x } else { 0.0 })
 }
 
+/// `x` in `[0, 1)`: the nearest there, and 0 for NaN.
+#[inline]
+#[must_use]
+pub fn clamp_unit(x: f32) -> f32 {
+    if x > 0.0 { x.min(ONE_MINUS_EPSILON) } else { 0.0 }
+}
+
 /// Sine and cosine of an angle (rad).
 #[inline]
 #[must_use]

@@ -80,7 +80,13 @@ pub fn uniform_sphere(u: [f32; 2]) -> Vec3 {
 /// Inverse of [`uniform_sphere`].
 #[must_use]
 pub fn uniform_sphere_inverse(d: Vec3) -> [f32; 2] {
-    [(1.0 - d.z) * 0.5, turn(d)]
+    [0.5 * one_minus_cos(d), turn(d)]
+}
+
+/// `1 − cos θ` of a unit vector, from its sine where the cosine is near 1.
+#[inline]
+fn one_minus_cos(d: Vec3) -> f32 {
+    if d.z > 0.0 { (d.x * d.x + d.y * d.y) / (1.0 + d.z) } else { 1.0 - d.z }
 }
 
 /// Density of [`uniform_sphere`] (sr⁻¹).
@@ -145,9 +151,7 @@ pub fn cone_pdf(one_minus_cos_max: f32) -> f32 {
 /// Inverse of [`cone`]; `1 − cos θ` is taken from the sine, where it does not cancel.
 #[must_use]
 pub fn cone_inverse(d: Vec3, one_minus_cos_max: f32) -> [f32; 2] {
-    let sin2 = d.x * d.x + d.y * d.y;
-    let x = if d.z > 0.0 { sin2 / (1.0 + d.z) } else { 1.0 - d.z };
-    [x / one_minus_cos_max, turn(d)]
+    [one_minus_cos(d) / one_minus_cos_max, turn(d)]
 }
 
 /// Unit square → directions about `+z` with density `(n + 1)/(2π) cosⁿ θ` (sr⁻¹).

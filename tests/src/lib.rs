@@ -4,6 +4,7 @@
 pub mod bsdfs;
 pub mod histogram;
 pub mod lights;
+pub mod matrix;
 pub mod oracle;
 pub mod oracle_extremes;
 pub mod quadrature;

@@ -21,6 +21,15 @@ pub fn integrate(a: f64, b: f64, pieces: usize, mut f: impl FnMut(f64) -> f64) -
     sum * h
 }
 
+/// Visits the nodes of the rule on the unit square with their weights, which add up to 1.
+pub fn nodes_of_square(mut f: impl FnMut(f64, f64, f64)) {
+    for (x, wx) in GAUSS {
+        for (y, wy) in GAUSS {
+            f(x, y, wx * wy);
+        }
+    }
+}
+
 /// `∫ f` over the unit square.
 pub fn integrate_square(pieces: usize, mut f: impl FnMut(f64, f64) -> f64) -> f64 {
     integrate(0.0, 1.0, pieces, |s| integrate(0.0, 1.0, pieces, |t| f(s, t)))

@@ -5,8 +5,8 @@ use crate::statistics::Moments;
 use halflight::Rgb;
 use halflight::bsdf::{AnyBsdf, Lambert, Phong, TwoSided};
 use halflight::build::{
-    CameraDescription, Description, Emission, FovAxis, Geometry, IntegratorDescription, Material, Object,
-    ProjectionDescription, SceneBuffers,
+    CameraDescription, Description, Emission, FovAxis, Geometry, IntegratorDescription, Material, Mesh,
+    Object, ProjectionDescription, SceneBuffers,
 };
 use halflight::camera::View;
 use halflight::estimate::{Estimator, PixelStats};
@@ -78,6 +78,15 @@ impl Stage {
         self
     }
 
+    /// The last surface emits from both sides.
+    #[must_use]
+    pub fn two_sided(mut self) -> Self {
+        if let Some(emission) = self.0.objects.last_mut().and_then(|o| o.emission.as_mut()) {
+            emission.two_sided = true;
+        }
+        self
+    }
+
     /// With a light that is no surface.
     #[must_use]
     pub fn lit_by(mut self, light: AnyLight) -> Self {
@@ -92,6 +101,29 @@ impl Stage {
     }
 }
 
+/// Hilly ground of 2 m by 2 m: `2 n²` triangles.
+#[must_use]
+pub fn bumpy_ground(n: u32) -> SceneBuffers {
+    let at = |i: u32| 2.0 * i as f32 / n as f32 - 1.0;
+    let height = |x: f32, z: f32| 0.15 * (7.0 * x).sin() * (5.0 * z).cos() + 0.02 * (41.0 * (x + z)).sin();
+    let grid = (0..=n).flat_map(|i| (0..=n).map(move |j| (at(i), at(j))));
+    let corner = |i: u32, j: u32| i * (n + 1) + j;
+    let triangles = (0..n).flat_map(|i| (0..n).map(move |j| (i, j))).flat_map(|(i, j)| {
+        let [a, b] = [corner(i, j), corner(i, j + 1)];
+        let [c, d] = [corner(i + 1, j), corner(i + 1, j + 1)];
+        [[a, b, c], [c, b, d]]
+    });
+    let mesh = Mesh {
+        positions: grid.map(|(x, z)| Vec3::new(x, height(x, z), z)).collect(),
+        normals: Vec::new(),
+        triangles: triangles.collect(),
+    };
+    let mut stage = Stage::empty();
+    let (name, geometry) = ("ground".into(), Geometry::Mesh(mesh));
+    stage.0.objects.push(Object { name, geometry, material: 1, emission: None });
+    stage.build()
+}
+
 /// What an eye half a millimetre away sees of the origin, from the side of `toward`.
 pub fn seen_at_origin(
     buffers: &SceneBuffers,
@@ -99,18 +131,44 @@ pub fn seen_at_origin(
     toward: Vec3,
     samples: u32,
 ) -> Moments {
-    let direction = -toward.normalize();
-    seen(buffers, estimator, &Ray::new(direction * -5e-4, direction), samples)
+    seen(buffers, estimator, &to_origin(toward), samples)
 }
 
-/// What arrives along a ray, from independent samples.
+/// From half a millimetre away, on the side of `toward`.
+#[must_use]
+pub fn to_origin(toward: Vec3) -> Ray {
+    let direction = -toward.normalize();
+    Ray::new(direction * -5e-4, direction)
+}
+
+/// What arrives along a ray, from independent samples, none of them negative.
 pub fn seen(buffers: &SceneBuffers, estimator: &impl Estimator, ray: &Ray, samples: u32) -> Moments {
+    arriving(buffers, estimator, ray, samples, Rgb::is_valid)
+}
+
+/// The same where a sample may be negative.
+pub fn seen_as_difference(
+    buffers: &SceneBuffers,
+    estimator: &impl Estimator,
+    ray: &Ray,
+    samples: u32,
+) -> Moments {
+    arriving(buffers, estimator, ray, samples, Rgb::is_finite)
+}
+
+fn arriving(
+    buffers: &SceneBuffers,
+    estimator: &impl Estimator,
+    ray: &Ray,
+    samples: u32,
+    is_proper: fn(Rgb) -> bool,
+) -> Moments {
     let scene = buffers.scene();
     let mut sequence: Random = Random::new(101);
     Moments::of((0..samples).map(|sample| {
         sequence.start(7, sample);
         let radiance = estimator.sample(&scene, ray, f32::INFINITY, &mut sequence);
-        assert!(radiance.is_valid(), "{radiance:?} along {ray:?}");
+        assert!(is_proper(radiance), "{radiance:?} along {ray:?}");
         f64::from(radiance.g)
     }))
 }

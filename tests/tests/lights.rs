@@ -45,6 +45,11 @@ macro_rules! conformance {
             }
 
             #[test]
+            fn view_inverse_returns_the_uniforms() -> Verdict {
+                lights::view_inverse_returns_the_uniforms(&$subject.by($density))
+            }
+
+            #[test]
             fn extreme_distances_stay_finite() -> Verdict {
                 lights::extreme_distances_stay_finite(&$subject.by($density))
             }
@@ -69,6 +74,13 @@ conformance!(sphere_from_its_wall, lights::sphere_from_its_wall());
 conformance!(triangle_overhead, lights::triangle_overhead());
 conformance!(triangle_far_away, lights::triangle_far_away());
 conformance!(triangle_two_sided, lights::triangle_two_sided());
+conformance!(triangle_near, lights::triangle_near());
+conformance!(triangle_needle, lights::triangle_needle());
+conformance!(triangle_grazing, lights::triangle_grazing());
+conformance!(polygon_overhead, lights::polygon_overhead());
+conformance!(polygon_near, lights::polygon_near());
+conformance!(polygon_far_away, lights::polygon_far_away());
+conformance!(polygon_two_sided, lights::polygon_two_sided());
 conformance!(cylinder_beside, lights::cylinder_beside());
 conformance!(cylinder_from_inside, lights::cylinder_from_inside());
 

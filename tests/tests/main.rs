@@ -6,6 +6,7 @@ mod closed_forms;
 mod delta;
 mod estimators;
 mod extremes;
+mod invariance;
 mod lights;
 mod pictures;
 mod properties;

@@ -136,6 +136,8 @@ pub(crate) enum Technique {
     Bsdf,
     /// From both, weighted (multiple importance sampling)
     Mis,
+    /// On diffuse surfaces the unshadowed answer in closed form, less an estimate of its blocked part
+    Control,
     /// Ambient occlusion: how much of the sky is open, without lights
     Occlusion,
 }

@@ -30,6 +30,10 @@ pub enum Technique {
     Mis(Heuristic),
     /// What each shading point requires: by light where the BSDF is diffuse, both elsewhere.
     Auto(Heuristic),
+    /// On diffuse points, the unshadowed answer in closed form less an estimate of its blocked part:
+    /// no noise where nothing is in the way. A sample may be negative; the expectation is not.
+    /// Elsewhere, and for lights without a closed form, as `Auto`.
+    Control(Heuristic),
 }
 
 /// The direct-lighting estimator.
@@ -53,6 +57,7 @@ struct Plan {
     light: u32,
     bsdf: u32,
     heuristic: Heuristic,
+    control: bool,
 }
 
 impl Default for Direct<'_> {
@@ -77,7 +82,7 @@ impl Direct<'_> {
         sequence: &mut impl Sequence,
     ) -> Rgb {
         let plan = self.plan(scene, shading.bsdf());
-        let mut sum = Rgb::BLACK;
+        let mut sum = if plan.control { unshadowed(scene, shading) } else { Rgb::BLACK };
         if plan.light > 0 || scene.has_delta_light() {
             sum += self.over_lights(scene, shading, plan, sequence);
         }
@@ -90,16 +95,18 @@ impl Direct<'_> {
     /// How many samples of each kind this point gets.
     #[inline]
     fn plan<S: Shape, L: Emitter, B: Bsdf>(&self, scene: &Scene<'_, S, L, B>, bsdf: &B) -> Plan {
+        let diffuse = bsdf.is_diffuse();
         let (light, bsdf_samples, heuristic) = match self.technique {
             Technique::Light => (self.light_samples, 0, Heuristic::Power),
             Technique::Bsdf => (0, self.bsdf_samples, Heuristic::Power),
             Technique::Mis(h) => (self.light_samples, self.bsdf_samples, h),
-            Technique::Auto(h) if bsdf.is_diffuse() => (self.light_samples.max(1), 0, h),
-            Technique::Auto(h) => (self.light_samples, self.bsdf_samples, h),
+            Technique::Auto(h) | Technique::Control(h) if diffuse => (self.light_samples.max(1), 0, h),
+            Technique::Auto(h) | Technique::Control(h) => (self.light_samples, self.bsdf_samples, h),
         };
         // Where no ray can meet a light, none is sent.
         let bsdf = if scene.has_light_to_meet() { bsdf_samples } else { 0 };
-        Plan { light, bsdf, heuristic }
+        let control = diffuse && matches!(self.technique, Technique::Control(_));
+        Plan { light, bsdf, heuristic, control }
     }
 
     /// The light-sampling part: over every light, or over a chosen one for each sample.
@@ -163,10 +170,14 @@ impl Direct<'_> {
                 plan.heuristic.weight(this, other) / (pdf * pmf)
             }
         };
-        if !scene.light_visible(&shading.at.at, sample.wi, sample.distance, index) {
-            return Rgb::BLACK;
+        let arrives = shading.is_outside(sample.wi)
+            && scene.light_visible(&shading.at.at, sample.wi, sample.distance, index);
+        let answered = plan.control && light.unshadowed_irradiance(&shading.receiver).is_some();
+        match (arrives, answered) {
+            (true, false) => reflected.f_cos * sample.incident * weight,
+            (false, true) => reflected.f_cos * sample.incident * -weight,
+            _ => Rgb::BLACK,
         }
-        reflected.f_cos * sample.incident * weight
     }
 
     /// The BSDF-sampling part: directions over the hemisphere, and the light that they meet.
@@ -183,7 +194,7 @@ impl Direct<'_> {
             let u = sequence.point(Dimension::Bsdf, draw, plan.bsdf);
             let lobe = sequence.choice(Dimension::Bsdf, draw, plan.bsdf);
             let Some((wi, pdf)) = shading.sample(u, lobe) else { continue };
-            let Some(reflected) = shading.reflect(wi) else { continue };
+            let Some(reflected) = shading.reflect(wi).filter(|_| shading.is_outside(wi)) else { continue };
             let Some((incident, pdf_light)) = self.met(scene, shading, wi) else { continue };
             let weight = if plan.light == 0 {
                 1.0
@@ -221,6 +232,15 @@ impl Direct<'_> {
             }
         }
     }
+}
+
+/// What a diffuse point reflects when nothing is in the way: `f_r Σ E`, of the lights that have a
+/// closed form.
+#[inline]
+fn unshadowed<S: Shape, L: Emitter, B: Bsdf>(scene: &Scene<'_, S, L, B>, shading: &Shading<'_, B>) -> Rgb {
+    let irradiance =
+        |sum: Rgb, light: &L| sum + light.unshadowed_irradiance(&shading.receiver).unwrap_or(Rgb::BLACK);
+    shading.diffuse() * scene.lights().iter().fold(Rgb::BLACK, irradiance)
 }
 
 impl Estimator for Direct<'_> {

@@ -41,14 +41,26 @@ impl<'s, B: Bsdf> Shading<'s, B> {
     /// `None` where nothing is reflected.
     #[inline]
     pub(super) fn reflect(&self, wi: Vec3) -> Option<Reflected> {
-        // Light must come from the viewer's side of the surface as well as of the shading normal.
         let cos_theta = self.receiver.normal.dot(wi);
-        if cos_theta <= 0.0 || self.side.dot(wi) <= 0.0 {
+        if cos_theta <= 0.0 {
             return None;
         }
         let local = self.frame.to_local(wi);
         let f = self.bsdf.eval(self.wo, local);
         (!f.is_black()).then(|| Reflected { f_cos: f * cos_theta, local })
+    }
+
+    /// True for directions on the viewer's side of the surface: the others come through it, also
+    /// where an interpolated normal would let them in.
+    #[inline]
+    pub(super) fn is_outside(&self, wi: Vec3) -> bool {
+        self.side.dot(wi) > 0.0
+    }
+
+    /// `f_r` of a BSDF that is the same in all directions.
+    #[inline]
+    pub(super) fn diffuse(&self) -> Rgb {
+        self.bsdf.eval(self.wo, Vec3::Z * self.wo.z.signum())
     }
 
     /// Density of a direction that [`Shading::reflect`] has accepted (sr⁻¹).

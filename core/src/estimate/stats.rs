@@ -19,11 +19,11 @@ impl PixelStats {
     /// Nothing known yet.
     pub const NEW: Self = Self { mean: Rgb::BLACK, squares: Rgb::BLACK, count: 0, rejected: 0 };
 
-    /// Takes a sample in. One that is not a finite, non-negative number is counted as rejected and
-    /// does not reach the mean.
+    /// Takes a sample in. One that is not finite is counted as rejected and does not reach the mean.
+    /// A negative one does: the difference of an unbiased estimator may be.
     #[inline]
     pub fn add(&mut self, sample: Rgb) {
-        if !sample.is_valid() {
+        if !sample.is_finite() {
             self.rejected = self.rejected.saturating_add(1);
             return;
         }
@@ -33,11 +33,12 @@ impl PixelStats {
         self.squares += delta * (sample - self.mean);
     }
 
-    /// Mean of the samples; black before the first.
+    /// Mean of the samples, but never below 0; black before the first. What is estimated is light, so
+    /// a negative mean is noise, and 0 is closer to the truth.
     #[inline]
     #[must_use]
     pub const fn mean(&self) -> Rgb {
-        self.mean
+        Rgb::new(self.mean.r.max(0.0), self.mean.g.max(0.0), self.mean.b.max(0.0))
     }
 
     /// Sample variance per channel; 0 before the second sample.
@@ -88,9 +89,18 @@ mod tests {
     fn what_is_not_a_number_is_counted_and_left_out() {
         let mut p = PixelStats::NEW;
         p.add(Rgb::splat(2.0));
-        for bad in [f32::NAN, f32::INFINITY, -1.0] {
+        for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
             p.add(Rgb::new(1.0, bad, 1.0));
         }
         assert_eq!((p.mean(), p.count(), p.rejected()), (Rgb::splat(2.0), 1, 3));
+    }
+
+    #[test]
+    fn negative_samples_count_and_negative_means_do_not_show() {
+        let mut p = PixelStats::NEW;
+        p.add(Rgb::new(-3.0, 1.0, -1.0));
+        assert_eq!(p.mean(), Rgb::new(0.0, 1.0, 0.0));
+        p.add(Rgb::new(4.0, 1.0, -1.0));
+        assert_eq!((p.mean(), p.count()), (Rgb::new(0.5, 1.0, 0.0), 2));
     }
 }

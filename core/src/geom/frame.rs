@@ -48,15 +48,25 @@ impl Frame {
 }
 
 /// Unit vector in the direction of `v`, or `None` when `v` has no usable direction
-/// (zero, infinite or NaN). Scales first, so that neither 1e-30 nor 1e30 is lost.
+/// (zero, infinite or NaN). Neither 1e-30 nor 1e30 is lost.
 #[inline]
 #[must_use]
 pub(crate) fn unit(v: Vec3) -> Option<Vec3> {
+    let squared = v.length_squared();
+    // Squares in here have lost no digits to underflow.
+    if squared > 1e-24 && squared < 1e30 {
+        return Some(v * (1.0 / num::sqrt(squared)));
+    }
+    unit_of_extreme(v)
+}
+
+/// Scales first.
+#[cold]
+fn unit_of_extreme(v: Vec3) -> Option<Vec3> {
     let scale = v.abs().max_element();
     if !(scale > 0.0 && scale < f32::INFINITY) {
         return None;
     }
-    // A power of two near 1/scale would be exact; division is good to one rounding and total.
     let w = v / scale;
     let squared = w.length_squared();
     // Between 1 and 3, unless a component is NaN, which the largest one does not show.

@@ -34,6 +34,14 @@ pub trait SampledShape: Shape {
     /// that sampled and queried directions have the same one.
     fn view(&self, from: &Receiver, method: SurfaceDensity, sides: Sides) -> Option<Self::View>;
 
+    /// True when the shape itself hides the surface point `at` from `from`. A shape whose closed form
+    /// counts each direction once must know.
+    #[inline]
+    fn hides(&self, from: Vec3, at: &SurfacePoint) -> bool {
+        let _ = (from, at);
+        false
+    }
+
     /// Projected solid angle of what `from` sees of the emitting sides above its horizon (sr), that
     /// is the irradiance for a radiance of 1; `None` for a shape without a closed form.
     fn projected_solid_angle(&self, from: &Receiver, sides: Sides) -> Option<f32> {
@@ -96,7 +104,7 @@ impl<S: SampledShape> Emitter for AreaLight<S> {
         let view = self.view(from, method)?;
         let sample = view.sample(u)?;
         let cos_light = self.cos_light(sample.at.normal, sample.wi);
-        if !(cos_light > 0.0) {
+        if !(cos_light > 0.0) || (self.sides == Sides::Both && self.shape.hides(from.point, &sample.at)) {
             return None;
         }
         let pdf = view.pdf_solid_angle(&sample.at, sample.wi, cos_light)?;

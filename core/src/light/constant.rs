@@ -50,6 +50,11 @@ impl Emitter for Constant {
         self.radiance
     }
 
+    /// `π L`.
+    fn unshadowed_irradiance(&self, _from: &Receiver) -> Option<Rgb> {
+        Some(self.radiance * PI)
+    }
+
     fn is_environment(&self) -> bool {
         true
     }

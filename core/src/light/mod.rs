@@ -12,6 +12,8 @@ mod directional;
 mod disk;
 mod error;
 mod point;
+mod polygon;
+mod projected_view;
 mod rectangle;
 mod sphere;
 mod spot;
@@ -24,8 +26,14 @@ pub use density::SurfaceDensity;
 pub use directional::Directional;
 pub use error::LightError;
 pub use point::Point;
+pub use polygon::PolygonSolidAngle;
+pub use projected_view::{FlatShape, ProjectedView};
+pub use rectangle::RectangleSolidAngle;
 pub use spot::Spot;
+pub use triangle::TriangleSolidAngle;
 pub use view::{AreaView, NoView, SurfaceSample, SurfaceView, View};
+
+use projected_view::{faces, flat_projected_solid_angle};
 
 use crate::Rgb;
 use crate::shape::{Cylinder, Disk, Rectangle, Sphere, SurfacePoint, Triangle};

@@ -1,12 +1,18 @@
 //! Sampling a rectangle.
 
-use super::{AreaView, NoView, Receiver, SampledShape, Sides, SurfaceDensity, View};
+use super::{
+    AreaView, FlatShape, ProjectedView, Receiver, SampledShape, Sides, SurfaceDensity, SurfaceSample,
+    SurfaceView, View, faces, flat_projected_solid_angle,
+};
+use crate::geom::unit;
 use crate::num::ONE_MINUS_EPSILON;
+use crate::projected::Chart;
 use crate::shape::{Rectangle, SurfacePoint};
-use glam::Vec3;
+use crate::solid_angle::{RectanglePlace, SphericalRectangle};
+use glam::{Vec2, Vec3};
 
 impl SampledShape for Rectangle {
-    type View = View<Self, NoView, NoView>;
+    type View = View<Self, RectangleSolidAngle, ProjectedView<Self, 8>>;
 
     /// Density `1 / (w h)` (m⁻²).
     #[inline]
@@ -20,7 +26,130 @@ impl SampledShape for Rectangle {
     }
 
     #[inline]
-    fn view(&self, from: &Receiver, _: SurfaceDensity, _: Sides) -> Option<Self::View> {
-        Some(View::Area(AreaView::new(*self, from)))
+    fn view(&self, from: &Receiver, method: SurfaceDensity, sides: Sides) -> Option<Self::View> {
+        let chart = self.chart(from.point);
+        if !faces(&chart, sides) {
+            return None;
+        }
+        let radius = (self.half_u() + self.half_v()).length();
+        match method.required(from, self.centre(), radius, SurfaceDensity::Area) {
+            SurfaceDensity::Area => Some(View::Area(AreaView::new(*self, from))),
+            SurfaceDensity::SolidAngle => {
+                RectangleSolidAngle::new(*self, Local::new(&chart)).map(View::SolidAngle)
+            }
+            _ => ProjectedView::new(self, from, &chart).map(View::Projected),
+        }
+    }
+
+    fn projected_solid_angle(&self, from: &Receiver, sides: Sides) -> Option<f32> {
+        Some(flat_projected_solid_angle::<_, 8>(self, from, sides))
+    }
+}
+
+impl FlatShape for Rectangle {
+    #[inline]
+    fn chart(&self, from: Vec3) -> Chart {
+        Chart::from_axes(from, self.centre(), self.half_u(), self.half_v())
+    }
+
+    #[inline]
+    fn corners(&self) -> impl AsRef<[Vec2]> {
+        [Vec2::NEG_ONE, Vec2::new(1.0, -1.0), Vec2::ONE, Vec2::new(-1.0, 1.0)]
+    }
+
+    #[inline]
+    fn point_at(&self, place: Vec2) -> SurfacePoint {
+        self.point(place.x, place.y)
+    }
+
+    fn place_of(&self, point: Vec3) -> Vec2 {
+        self.coordinates(point).into()
+    }
+}
+
+/// A rectangle from the foot of a receiver's perpendicular on its plane.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Local {
+    /// Unit axes, the third from the receiver to the plane.
+    axes: [Vec3; 3],
+    /// Low corner and size along the first two, height along the third (m).
+    corner: [f32; 2],
+    size: [f32; 2],
+    height: f32,
+}
+
+impl Local {
+    /// In double precision: 1 mrad above the plane, or at 1e-6 sizes from it, single has two or
+    /// three digits of the height.
+    #[inline]
+    fn new(chart: &Chart) -> Self {
+        let (u_length, v_length) = (chart.u.length(), chart.v.length());
+        let (u, v) = (chart.u / u_length, chart.v / v_length);
+        let normal = u.cross(v);
+        let below = normal.dot(chart.origin);
+        let toward = if below < 0.0 { -normal } else { normal };
+        Self {
+            axes: [u.as_vec3(), v.as_vec3(), toward.as_vec3()],
+            corner: [(u.dot(chart.origin) - u_length) as f32, (v.dot(chart.origin) - v_length) as f32],
+            size: [(2.0 * u_length) as f32, (2.0 * v_length) as f32],
+            height: below.abs() as f32,
+        }
+    }
+}
+
+/// A rectangle with the density `1 / solid angle` (sr⁻¹) at every distance and angle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RectangleSolidAngle {
+    shape: Rectangle,
+    local: Local,
+    seen: SphericalRectangle,
+}
+
+impl RectangleSolidAngle {
+    #[inline]
+    fn new(shape: Rectangle, local: Local) -> Option<Self> {
+        let seen = SphericalRectangle::new(local.corner, local.size, local.height)?;
+        Some(Self { shape, local, seen })
+    }
+}
+
+impl SurfaceView for RectangleSolidAngle {
+    #[inline]
+    fn sample(&self, u: [f32; 2]) -> Option<SurfaceSample> {
+        let place = self.seen.sample(u);
+        let [x, y, z] = self.local.axes;
+        let way = x * place.offset[0] + y * place.offset[1] + z * self.seen.height();
+        let wi = unit(way)?;
+        let [s, t] = place.fraction;
+        let at = self.shape.point(2.0 * s - 1.0, 2.0 * t - 1.0);
+        let distance = way.dot(wi) * self.seen.reach();
+        (distance > 0.0).then_some(SurfaceSample { at, wi, distance })
+    }
+
+    #[inline]
+    fn pdf_solid_angle(&self, _: &SurfacePoint, _: Vec3, _: f32) -> Option<f32> {
+        Some(1.0 / self.seen.solid_angle())
+    }
+
+    fn invert(&self, at: &SurfacePoint, wi: Vec3) -> Option<[f32; 2]> {
+        let Local { axes, corner, size, height } = self.local;
+        let [x, y, z] = axes.map(|axis| axis.dot(wi));
+        if !(z > 0.0) {
+            return None;
+        }
+        // Near, the direction says best where the place is; far and low, the place itself.
+        let distance = height / z;
+        let place = if at.point.abs().max_element() > distance / z {
+            let offset = [x * distance, y * distance];
+            let fraction = [0, 1].map(|i| (offset[i] - corner[i]) / size[i]);
+            RectanglePlace { offset, fraction }
+        } else {
+            let (s, t) = self.shape.coordinates(at.point);
+            let fraction = [s, t].map(|s| 0.5 * s + 0.5);
+            RectanglePlace { offset: [0, 1].map(|i| corner[i] + fraction[i] * size[i]), fraction }
+        };
+        let offset = place.offset.map(|x| x / self.seen.reach());
+        let fraction = place.fraction.map(|f| f.clamp(0.0, 1.0));
+        Some(self.seen.invert(&RectanglePlace { offset, fraction }))
     }
 }

@@ -111,6 +111,14 @@ impl SampledShape for Sphere {
         warp::uniform_sphere_inverse(unit(point - self.centre()).unwrap_or(Vec3::Z))
     }
 
+    /// From outside, the far side is hidden.
+    #[inline]
+    fn hides(&self, from: Vec3, at: &SurfacePoint) -> bool {
+        let outward = if self.is_inward() { -at.normal } else { at.normal };
+        outward.dot(from - at.point) < 0.0
+            && self.centre().distance_squared(from) > self.radius() * self.radius()
+    }
+
     /// From inside and from the surface itself, by area.
     #[inline]
     fn view(&self, from: &Receiver, method: SurfaceDensity, _: Sides) -> Option<Self::View> {

@@ -1,12 +1,17 @@
 //! Sampling a triangle.
 
-use super::{AreaView, NoView, Receiver, SampledShape, Sides, SurfaceDensity, View};
-use crate::shape::{SurfacePoint, Triangle};
+use super::{
+    AreaView, FlatShape, ProjectedView, Receiver, SampledShape, Sides, SurfaceDensity, SurfaceSample,
+    SurfaceView, View, faces, flat_projected_solid_angle,
+};
+use crate::projected::Chart;
+use crate::shape::{Shape, SurfacePoint, Triangle};
+use crate::solid_angle::{SphericalTriangle, TrianglePlace};
 use crate::warp;
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
 impl SampledShape for Triangle {
-    type View = View<Self, NoView, NoView>;
+    type View = View<Self, TriangleSolidAngle, ProjectedView<Self, 7>>;
 
     /// Density `1 / area` (m⁻²).
     #[inline]
@@ -21,7 +26,74 @@ impl SampledShape for Triangle {
     }
 
     #[inline]
-    fn view(&self, from: &Receiver, _: SurfaceDensity, _: Sides) -> Option<Self::View> {
-        Some(View::Area(AreaView::new(*self, from)))
+    fn view(&self, from: &Receiver, method: SurfaceDensity, sides: Sides) -> Option<Self::View> {
+        let chart = self.chart(from.point);
+        if !faces(&chart, sides) {
+            return None;
+        }
+        let bounds = self.bounds();
+        let (centre, radius) = ((bounds.min + bounds.max) * 0.5, (bounds.max - bounds.min).length() * 0.5);
+        match method.required(from, centre, radius, SurfaceDensity::Area) {
+            SurfaceDensity::Area => Some(View::Area(AreaView::new(*self, from))),
+            SurfaceDensity::SolidAngle => TriangleSolidAngle::new(*self, from.point).map(View::SolidAngle),
+            _ => ProjectedView::new(self, from, &chart).map(View::Projected),
+        }
+    }
+
+    fn projected_solid_angle(&self, from: &Receiver, sides: Sides) -> Option<f32> {
+        Some(flat_projected_solid_angle::<_, 7>(self, from, sides))
+    }
+}
+
+impl FlatShape for Triangle {
+    #[inline]
+    fn chart(&self, from: Vec3) -> Chart {
+        Chart::from_corners(from, Triangle::corners(self))
+    }
+
+    #[inline]
+    fn corners(&self) -> impl AsRef<[Vec2]> {
+        [Vec2::ZERO, Vec2::X, Vec2::Y]
+    }
+
+    #[inline]
+    fn point_at(&self, place: Vec2) -> SurfacePoint {
+        self.point(place.x, place.y)
+    }
+
+    fn place_of(&self, point: Vec3) -> Vec2 {
+        self.coordinates(point).into()
+    }
+}
+
+/// A triangle with the density `1 / solid angle` (sr⁻¹) at every distance and angle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TriangleSolidAngle {
+    shape: Triangle,
+    seen: SphericalTriangle,
+}
+
+impl TriangleSolidAngle {
+    #[inline]
+    fn new(shape: Triangle, from: Vec3) -> Option<Self> {
+        Some(Self { shape, seen: SphericalTriangle::new(from, &shape.corners())? })
+    }
+}
+
+impl SurfaceView for TriangleSolidAngle {
+    #[inline]
+    fn sample(&self, u: [f32; 2]) -> Option<SurfaceSample> {
+        let TrianglePlace { barycentric: [b1, b2], direction: wi, distance } = self.seen.sample(u);
+        (distance > 0.0).then_some(SurfaceSample { at: self.shape.point(b1, b2), wi, distance })
+    }
+
+    #[inline]
+    fn pdf_solid_angle(&self, _: &SurfacePoint, _: Vec3, _: f32) -> Option<f32> {
+        Some(1.0 / self.seen.solid_angle())
+    }
+
+    fn invert(&self, at: &SurfacePoint, wi: Vec3) -> Option<[f32; 2]> {
+        let barycentric = self.shape.coordinates(at.point).into();
+        Some(self.seen.invert(&TrianglePlace { barycentric, direction: wi, distance: 0.0 }))
     }
 }

@@ -20,7 +20,7 @@ pub struct SurfaceSample {
 
 impl SurfaceSample {
     /// Looks at a surface point from `from`; `None` when the two coincide.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn toward(from: Vec3, at: SurfacePoint) -> Option<Self> {
         let v = at.point - from;
@@ -67,7 +67,7 @@ impl<S: SampledShape> AreaView<S> {
 }
 
 impl<S: SampledShape> SurfaceView for AreaView<S> {
-    #[inline]
+    #[inline(always)]
     fn sample(&self, u: [f32; 2]) -> Option<SurfaceSample> {
         SurfaceSample::toward(self.from, self.shape.sample_area(u))
     }
@@ -116,7 +116,7 @@ pub enum View<S, W, P> {
 }
 
 impl<S: SampledShape, W: SurfaceView, P: SurfaceView> SurfaceView for View<S, W, P> {
-    #[inline]
+    #[inline(always)]
     fn sample(&self, u: [f32; 2]) -> Option<SurfaceSample> {
         match self {
             Self::Area(v) => v.sample(u),

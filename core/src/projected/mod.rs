@@ -1,1 +1,16 @@
 //! Regions of directions above a horizon, and sampling over them in proportion to the cosine.
+
+mod arc;
+mod chains;
+mod chart;
+mod clip;
+mod meridian;
+#[cfg(test)]
+pub(crate) mod oracle;
+mod polygon;
+mod sector;
+#[cfg(test)]
+mod tests;
+
+pub use chart::Chart;
+pub use polygon::{PolygonSample, ProjectedPolygon};

@@ -18,6 +18,23 @@ pub enum ShapeError {
         /// Its value.
         value: f32,
     },
+    /// A polygon has too few or too many corners.
+    CornerCount {
+        /// How many.
+        count: usize,
+    },
+    /// A polygon's corner is not in the plane of the others.
+    NotPlanar {
+        /// Which corner, counted from 0.
+        corner: usize,
+        /// How far it is off (m).
+        off: f32,
+    },
+    /// A polygon has a corner on the outer side of one of its edges.
+    NotConvex {
+        /// At which corner the edge starts, counted from 0.
+        corner: usize,
+    },
     /// Two axes that must be at right angles are not.
     NotOrthogonal {
         /// Cosine of the angle between them.
@@ -33,6 +50,21 @@ impl fmt::Display for ShapeError {
                 write!(
                     f,
                     "the shape is degenerate: its {what} is {value}; give it an extent that f32 can hold"
+                )
+            }
+            Self::CornerCount { count } => {
+                write!(f, "a polygon has 3 to 8 corners, not {count}; split a larger one")
+            }
+            Self::NotPlanar { corner, off } => {
+                write!(
+                    f,
+                    "corner {corner} is {off} m off the plane of the polygon; use triangles for a bent one"
+                )
+            }
+            Self::NotConvex { corner } => {
+                write!(
+                    f,
+                    "the polygon is not convex at the edge from corner {corner}; split it, or reorder it"
                 )
             }
             Self::NotOrthogonal { cosine } => {

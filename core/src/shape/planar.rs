@@ -46,7 +46,7 @@ impl Planar {
     /// Unit normal.
     #[inline]
     pub(super) fn normal(&self) -> Vec3 {
-        unit(self.axis_u).unwrap_or(Vec3::X).cross(unit(self.axis_v).unwrap_or(Vec3::Y)).normalize_or(Vec3::Z)
+        unit(self.axis_u.cross(self.axis_v)).unwrap_or(Vec3::Z)
     }
 
     /// Where a ray meets the plane, in units of the half-axes.

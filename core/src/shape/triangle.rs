@@ -36,7 +36,7 @@ impl Triangle {
         [Vec3::new(x.x, y.x, z.x), Vec3::new(x.y, y.y, z.y), Vec3::new(x.z, y.z, z.z)]
     }
 
-    const fn from_corners([a, b, c]: [Vec3; 3]) -> Self {
+    pub(super) const fn from_corners([a, b, c]: [Vec3; 3]) -> Self {
         Self { axes: [Vec3::new(a.x, b.x, c.x), Vec3::new(a.y, b.y, c.y), Vec3::new(a.z, b.z, c.z)] }
     }
 

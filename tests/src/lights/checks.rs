@@ -6,7 +6,7 @@ use crate::random::{Uniforms, corners};
 use crate::statistics::Moments;
 use crate::{Verdict, ensure};
 use halflight::glam::Vec3;
-use halflight::light::{AreaLight, SampledShape};
+use halflight::light::{AreaLight, SampledShape, SurfaceView};
 
 /// Samples of each estimate: their standard errors are some tenths of a percent.
 const SAMPLES: u64 = 1 << 19;
@@ -161,6 +161,34 @@ pub fn inverse_returns_the_uniforms(shape: &impl SampledShape) -> Verdict {
         let polar = u[0].min(1.0 - u[0]).min((u[0] - 0.5).abs().max((u[1] - 0.5).abs()));
         ensure!(off < 2e-5 || polar < 0.02, "{u:?} became {v:?}");
     }
+    Ok(())
+}
+
+/// Directions know the uniforms that they came from, however the light is sampled.
+///
+/// # Errors
+/// When they do not.
+pub fn view_inverse_returns_the_uniforms<S: Specimen>(subject: &Area<S>) -> Verdict {
+    let mut random = Uniforms::new(17);
+    let view = subject.light.view(&subject.from, subject.method);
+    let mut compared = 0;
+    for _ in 0..20_000 {
+        // Off the seams, where 0 and 1 are the same place.
+        let u = random.two().map(|u| 0.001 + 0.998 * u);
+        let Some(view) = view else { break };
+        let Some(sample) = view.sample(u) else { continue };
+        if sample.at.normal.dot(sample.wi) >= 0.0 && !subject.two_sided {
+            continue;
+        }
+        compared += 1;
+        let Some(v) = view.invert(&sample.at, sample.wi) else {
+            return Err(crate::Failure(format!("{u:?} cannot be found again from {sample:?}")));
+        };
+        // A point is rounded in the light's coordinates, a direction in its own.
+        let off = (u[0] - v[0]).abs().max((u[1] - v[1]).abs());
+        ensure!(off < 1e-3, "{u:?} became {v:?}");
+    }
+    ensure!(compared > 200, "{compared} compared");
     Ok(())
 }
 

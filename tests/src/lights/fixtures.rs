@@ -4,7 +4,7 @@ use super::{Area, Environment, Specimen};
 use halflight::Rgb;
 use halflight::glam::Vec3;
 use halflight::light::{AreaLight, Constant, Receiver, SurfaceDensity};
-use halflight::shape::{Cylinder, Disk, Rectangle, Sphere, Triangle};
+use halflight::shape::{Cylinder, Disk, Polygon, Rectangle, Sphere, Triangle};
 
 /// A receiver at `point` with the direction of its normal.
 #[must_use]
@@ -147,6 +147,57 @@ pub fn triangle_two_sided() -> Area<Triangle> {
     area(triangle().flipped(), floor()).two_sided()
 }
 
+/// A triangle seen from a twentieth of its size, over its inside.
+#[must_use]
+pub fn triangle_near() -> Area<Triangle> {
+    near(triangle(), 0.05)
+}
+
+/// A needle of aspect 10.
+#[must_use]
+pub fn triangle_needle() -> Area<Triangle> {
+    let (a, b, c) = (Vec3::new(-1.0, 0.4, 0.9), Vec3::new(1.2, -0.3, 1.1), Vec3::new(1.2, -0.07, 1.1));
+    area(Triangle::new(c, b, a).expect("a proper triangle"), floor())
+}
+
+/// Seen almost edge-on, from 6° above the plane of the triangle.
+#[must_use]
+pub fn triangle_grazing() -> Area<Triangle> {
+    let (a, b, c) = (Vec3::new(-0.5, -0.6, 0.2), Vec3::new(0.1, 0.9, 0.2), Vec3::new(0.8, -0.3, 0.2));
+    let from = receiver(Vec3::new(-2.0, 0.3, 0.0), Vec3::new(1.0, 0.0, 0.3));
+    area(Triangle::new(a, b, c).expect("a proper triangle"), from)
+}
+
+/// A polygon of six corners above; one of them is on a line with its neighbours.
+#[must_use]
+pub fn polygon_overhead() -> Area<Polygon> {
+    area(polygon(), floor())
+}
+
+fn polygon() -> Polygon {
+    let flat = [[-0.6, -0.5], [-0.7, 0.2], [-0.2, 0.8], [0.3, 0.7], [0.8, 0.6], [0.5, -0.7]];
+    let corners = flat.map(|[x, y]: [f32; 2]| Vec3::new(x, y, 1.0 + 0.25 * x - 0.125 * y));
+    Polygon::new(&corners).expect("a proper polygon")
+}
+
+/// A polygon seen from a twentieth of its size, over its inside.
+#[must_use]
+pub fn polygon_near() -> Area<Polygon> {
+    near(polygon(), 0.05)
+}
+
+/// A polygon a thousand sizes away.
+#[must_use]
+pub fn polygon_far_away() -> Area<Polygon> {
+    from_afar(polygon(), 1e3)
+}
+
+/// Both sides emit, and the back is seen.
+#[must_use]
+pub fn polygon_two_sided() -> Area<Polygon> {
+    area(polygon().flipped(), floor()).two_sided()
+}
+
 /// A standing tube, seen from its side.
 #[must_use]
 pub fn cylinder_beside() -> Area<Cylinder> {
@@ -172,6 +223,12 @@ pub fn constant_over_a_slope() -> Environment<Constant> {
 fn tilted_rectangle() -> Rectangle {
     let (u, v) = (Vec3::new(0.6, 0.64, -0.48), Vec3::new(-0.8, 0.48, -0.36));
     Rectangle::new(Vec3::ZERO, u * 0.5, v * 0.3).expect("a proper rectangle")
+}
+
+/// A shape and a receiver that faces it from before its foot.
+fn near<S: Specimen>(shape: S, distance: f32) -> Area<S> {
+    let (foot, normal) = shape.foot();
+    area(shape, receiver(foot + normal * distance, -normal))
 }
 
 /// A shape and a receiver that faces it from 40° off its normal.

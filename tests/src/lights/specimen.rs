@@ -3,7 +3,7 @@
 use crate::oracle::{self, Patch};
 use halflight::glam::{DVec3, Vec3};
 use halflight::light::SampledShape;
-use halflight::shape::{Cylinder, Disk, Rectangle, Sphere, Triangle};
+use halflight::shape::{Cylinder, Disk, Polygon, Rectangle, Sphere, Triangle};
 
 /// A shape with its exact geometry.
 pub trait Specimen: SampledShape + std::fmt::Debug {
@@ -104,6 +104,39 @@ impl Specimen for Triangle {
     fn solid_angle(&self, from: Vec3) -> f64 {
         let corners = self.corners().map(|p| p.as_dvec3());
         oracle::triangle_solid_angle(from.as_dvec3(), corners)
+    }
+}
+
+impl Specimen for Polygon {
+    fn scaled(self, k: f32) -> Self {
+        let corners: Vec<Vec3> = self.corners().iter().map(|p| *p * k).collect();
+        Self::new(&corners).expect("a proper polygon")
+    }
+
+    fn turned(self) -> Self {
+        self.flipped()
+    }
+
+    fn foot(&self) -> (Vec3, Vec3) {
+        (self.bounding_sphere().0, self.normal())
+    }
+
+    fn bounding_sphere(&self) -> (Vec3, f32) {
+        let corners = self.corners();
+        let centre = corners.iter().sum::<Vec3>() / corners.len() as f32;
+        (centre, corners.iter().map(|p| p.distance(centre)).fold(0.0, f32::max))
+    }
+
+    /// The first triangle of the fan alone.
+    fn patch(&self) -> Patch {
+        let corner = |i: usize| self.corners()[i].as_dvec3();
+        Patch::Triangle(corner(0), corner(1), corner(2))
+    }
+
+    fn solid_angle(&self, from: Vec3) -> f64 {
+        let (first, rest) = self.corners().split_first().expect("corners");
+        let fan = rest.windows(2).map(|pair| [*first, pair[0], pair[1]].map(|p| p.as_dvec3()));
+        fan.map(|corners| oracle::triangle_solid_angle(from.as_dvec3(), corners)).sum()
     }
 }
 

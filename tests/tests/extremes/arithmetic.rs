@@ -52,7 +52,7 @@ fn row_53_the_variance_is_never_negative_and_0_for_a_constant() {
 #[test]
 fn row_54_a_sample_that_is_not_a_number_is_counted_and_left_out() {
     let mut pixel = PixelStats::NEW;
-    for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -1e-3] {
+    for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -f32::NAN] {
         pixel.add(Rgb::new(1.0, 1.0, bad));
         pixel.add(Rgb::splat(0.5));
     }

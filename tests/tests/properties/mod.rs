@@ -119,15 +119,22 @@ fn samples<S: SampledShape>(light: &AreaLight<S>, case: &Case) -> Verdict {
     Ok(())
 }
 
+/// True when rounding decides on which side of the light's plane the receiver is.
+fn is_edge_on<S: Specimen>(shape: &S, case: &Case) -> bool {
+    let (foot, normal) = shape.foot();
+    normal.dot(case.from.point - foot).abs() <= 64.0 * UNIT_ROUND_OFF * case.reach
+}
+
 /// The uniforms come back, as well as the drawn point says where it is: to the rounding of its
 /// coordinates in extents of the light. Where the map from uniforms to points is flatter than that
 /// (a needle, a seam, a light that fills the hemisphere), they are others that draw the same point or the
 /// same direction, to that rounding.
-fn inverse<S: SampledShape>(light: &AreaLight<S>, case: &Case) -> Verdict {
+fn inverse<S: Specimen>(light: &AreaLight<S>, case: &Case) -> Verdict {
     let Some((_, _, drawn)) = draw(light, case)? else { return Ok(()) };
     let view = light.view(&case.from, case.method).expect("what was sampled");
     let Some(back) = view.invert(&drawn.at, drawn.wi) else {
-        return Err(Failure(format!("{drawn:?} is never drawn")));
+        ensure!(is_edge_on(light.shape(), case), "{drawn:?} is never drawn");
+        return Ok(());
     };
     ensure!(back.iter().all(|u| (0.0..1.0).contains(u)), "{:?} became {back:?}", case.u);
     let rounding = 64.0 * UNIT_ROUND_OFF * case.reach.max(drawn.distance);
@@ -138,7 +145,7 @@ fn inverse<S: SampledShape>(light: &AreaLight<S>, case: &Case) -> Verdict {
     let again = view.sample(back);
     let same = again.is_some_and(|again| {
         let (beside, turned) = (again.at.point.distance(drawn.at.point), (again.wi - drawn.wi).length());
-        beside <= rounding || turned <= 64.0 * UNIT_ROUND_OFF
+        beside <= rounding || turned <= 256.0 * UNIT_ROUND_OFF
     });
     ensure!(same, "{:?} became {back:?}: {again:?} instead of {drawn:?}", case.u);
     Ok(())
@@ -172,25 +179,28 @@ fn halves(shape: &Rectangle, case: &Case) -> Verdict {
     let Some(whole) = sends(Vec3::ZERO, u)? else { return Ok(()) };
     let parts = [sends(u * 0.5, u * 0.5)?, sends(u * -0.5, u * 0.5)?].map(Option::unwrap_or_default);
     let height = shape.normal().dot(point).abs();
-    let lost = case.reach / height.min(case.minor).max(f32::MIN_POSITIVE);
+    let lost = (case.reach / height.min(case.minor).max(f32::MIN_POSITIVE)).min(f32::MAX);
     let tolerance = 1e-4 + 32.0 * UNIT_ROUND_OFF * lost;
     let sum = parts[0] + parts[1];
     ensure!((sum - whole).abs() <= tolerance * whole.max(sum), "{parts:?} instead of {whole}");
     Ok(())
 }
 
-/// By a power of two, which rounds nothing.
+/// By a power of two, which rounds nothing; but where two forms of the same change places, the last
+/// bit may change, and with it whether a light is seen that is edge-on to rounding.
 fn scaling<S: Specimen>(shape: S, case: &Case, k: f32) -> Verdict {
     let scaled = Case { from: Receiver { point: case.from.point * k, ..case.from }, ..*case };
     let (one, other) = (light(shape, case), light(shape.scaled(k), &scaled));
     let (a, b) = (draw(&one, case)?, draw(&other, &scaled)?);
-    ensure!(a.is_some() == b.is_some(), "{a:?}, times {k} {b:?}");
-    if let Some(((a, pdf_a, _), (b, pdf_b, _))) = a.zip(b) {
+    let edge_on = is_edge_on(&shape, case);
+    ensure!(a.is_some() == b.is_some() || edge_on, "{a:?}, times {k} {b:?}");
+    if let Some(((a, pdf_a, drawn), (b, pdf_b, _))) = a.zip(b) {
         ensure!((a.wi - b.wi).length() < 1e-6, "toward {}, times {k} {}", a.wi, b.wi);
-        ensure!((pdf_a / pdf_b - 1.0).abs() < 1e-5, "density {pdf_a}, times {k} {pdf_b}");
+        let tolerance = 1e-5 + 16.0 * UNIT_ROUND_OFF / drawn.at.normal.dot(a.wi).abs();
+        ensure!((pdf_a / pdf_b - 1.0).abs() < tolerance, "density {pdf_a}, times {k} {pdf_b}");
     }
     let e = [one.unshadowed_irradiance(&case.from), other.unshadowed_irradiance(&scaled.from)];
     let [a, b] = e.map(|e| e.map_or(0.0, |e| e.g));
-    ensure!((a - b).abs() <= 1e-5 * a.max(b), "irradiance {a}, times {k} {b}");
+    ensure!((a - b).abs() <= 1e-5 * a.max(b) || edge_on, "irradiance {a}, times {k} {b}");
     Ok(())
 }

@@ -3,6 +3,13 @@
 //! Radiance is 1 throughout. Each irradiance is compared with an integral over the surface in the
 //! tests below, so a slip in a formula does not become the truth.
 
+mod adaptive;
+mod curved;
+mod outlook;
+mod polygon;
+
+pub use outlook::{Amounts, CELLS, Outlook};
+
 use crate::quadrature::integrate_square;
 use halflight::glam::DVec3;
 use std::f64::consts::{PI, TAU};

@@ -1,0 +1,121 @@
+//! Flat lights with straight edges, uniform over projected solid angle.
+
+use super::{Receiver, SampledShape, Sides, SurfaceSample, SurfaceView};
+use crate::projected::{Chart, ProjectedPolygon};
+use crate::shape::SurfacePoint;
+use glam::{Vec2, Vec3};
+
+/// A convex polygon that lights can have as their surface.
+pub trait FlatShape: SampledShape {
+    /// The shape's plane as it is seen from a point (m); the normal is along `u × v`.
+    fn chart(&self, from: Vec3) -> Chart;
+
+    /// The corners in the chart, convex and counter-clockwise.
+    fn corners(&self) -> impl AsRef<[Vec2]>;
+
+    /// The point of the surface at a place of the chart.
+    fn point_at(&self, place: Vec2) -> SurfacePoint;
+
+    /// The place of a point of the surface in the chart.
+    fn place_of(&self, point: Vec3) -> Vec2;
+}
+
+/// The part of a polygon above the receiver's horizon: uniform over projected solid angle,
+/// `cos θ / E` (sr⁻¹).
+///
+/// * `N` – as in [`ProjectedPolygon`]
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ProjectedView<S, const N: usize> {
+    shape: S,
+    polygon: ProjectedPolygon<N>,
+}
+
+impl<S: FlatShape, const N: usize> ProjectedView<S, N> {
+    /// `None` in the plane and when nothing is above the horizon.
+    ///
+    /// * `chart` – the shape's, from the receiver
+    #[inline]
+    #[must_use]
+    pub fn new(shape: &S, from: &Receiver, chart: &Chart) -> Option<Self> {
+        let polygon = ProjectedPolygon::new(from.normal, chart, shape.corners().as_ref())?;
+        Some(Self { shape: *shape, polygon })
+    }
+}
+
+/// True when the receiver of a chart is on a side that emits.
+#[inline]
+pub(super) fn faces(chart: &Chart, sides: Sides) -> bool {
+    let volume = chart.volume();
+    volume < 0.0 || (sides == Sides::Both && volume > 0.0)
+}
+
+/// Projected solid angle of what `from` sees of the emitting sides above its horizon (sr).
+pub(super) fn flat_projected_solid_angle<S: FlatShape, const N: usize>(
+    shape: &S,
+    from: &Receiver,
+    sides: Sides,
+) -> f32 {
+    let chart = shape.chart(from.point);
+    if !faces(&chart, sides) {
+        return 0.0;
+    }
+    let polygon = ProjectedPolygon::<N>::new(from.normal, &chart, shape.corners().as_ref());
+    polygon.map_or(0.0, |polygon| polygon.projected_solid_angle())
+}
+
+impl<S: FlatShape, const N: usize> SurfaceView for ProjectedView<S, N> {
+    #[inline]
+    fn sample(&self, u: [f32; 2]) -> Option<SurfaceSample> {
+        let drawn = self.polygon.sample(u)?;
+        Some(SurfaceSample { at: self.shape.point_at(drawn.place), wi: drawn.wi, distance: drawn.distance })
+    }
+
+    #[inline]
+    fn pdf_solid_angle(&self, _: &SurfacePoint, wi: Vec3, _: f32) -> Option<f32> {
+        self.polygon.pdf_solid_angle(wi)
+    }
+
+    fn invert(&self, at: &SurfacePoint, wi: Vec3) -> Option<[f32; 2]> {
+        self.polygon.pdf_solid_angle(wi)?;
+        Some(self.polygon.invert(self.shape.place_of(at.point)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::light::{SurfaceDensity, View};
+    use crate::shape::{Rectangle, Triangle};
+
+    fn at(point: Vec3) -> Receiver {
+        Receiver { point, normal: Vec3::new(0.0, 0.6, 0.8) }
+    }
+
+    fn check<S: FlatShape<View = View<S, W, P>>, W: SurfaceView, P: SurfaceView>(shape: S) {
+        let view = |from: &Receiver, sides| shape.view(from, SurfaceDensity::Projected, sides);
+        let (below, above) = (at(Vec3::ZERO), at(Vec3::Z * 3.0));
+        assert!(view(&above, Sides::Front).is_none() && view(&at(Vec3::Z), Sides::Both).is_none());
+        assert_eq!(shape.projected_solid_angle(&above, Sides::Front), Some(0.0));
+        let (front, e) = (view(&below, Sides::Front), shape.projected_solid_angle(&below, Sides::Front));
+        let (front, e) = (front.expect("a view"), e.expect("a closed form"));
+        for i in 0..100_u8 {
+            let u = [f32::from(i % 10) * 0.1 + 0.03, f32::from(i / 10) * 0.1 + 0.05];
+            let drawn = front.sample(u).expect("a sample");
+            let pdf = front.pdf_solid_angle(&drawn.at, drawn.wi, 1.0).expect("a density");
+            assert!((below.normal.dot(drawn.wi) / (pdf * e) - 1.0).abs() < 1e-6);
+            assert!((drawn.wi * drawn.distance - drawn.at.point).length() < 1e-6);
+            let v = front.invert(&drawn.at, drawn.wi).expect("uniforms");
+            assert!((u[0] - v[0]).abs().max((u[1] - v[1]).abs()) < 5e-5, "{u:?} {v:?}");
+            assert_eq!(front.pdf_solid_angle(&drawn.at, -drawn.wi, 1.0), None);
+        }
+    }
+
+    #[test]
+    fn views_are_consistent_and_dark_from_behind_and_in_the_plane() {
+        check(Rectangle::new(Vec3::new(0.1, 0.3, 1.0), Vec3::Y, Vec3::X * 0.6).unwrap());
+        check(
+            Triangle::new(Vec3::new(-1.0, -1.0, 1.0), Vec3::new(0.2, 2.0, 1.0), Vec3::new(1.0, 0.0, 1.0))
+                .unwrap(),
+        );
+    }
+}

@@ -1,0 +1,219 @@
+//! A piece of a polygon between two meridians.
+
+use super::arc::{atan_ratio, atan_ratio_and_slope};
+use super::meridian::Meridian;
+use crate::num;
+use glam::Vec3;
+
+/// A piece between two meridians and two great circles, or the zenith instead of the inner circle.
+///
+/// Derived: Peters 2021, *BRDF Importance Sampling for Polygonal Lights*, TOG 40(4), section 4,
+/// samples the same pieces. Differs: places along the circles are fractions of their chords, on which
+/// heights and azimuth vectors depend linearly; and where two circles nearly coincide, their
+/// difference is a sum of differences that are known, not one of arc tangents.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Sector {
+    pub(super) first: Meridian,
+    pub(super) last: Meridian,
+    /// The cross product of the outer ends; its z is that of the azimuth vectors.
+    pole: Vec3,
+    /// True when it reaches up to the zenith.
+    to_zenith: bool,
+    /// Cosine of the outer arc.
+    cos: f32,
+    /// Square of its sine.
+    sin2: f32,
+    /// Square of the cross product of the inner chord's ends, less that of the outer chord's.
+    inner_sin2: f32,
+    /// Projected solid angle (sr).
+    area: f32,
+}
+
+impl Sector {
+    pub(super) const ZERO: Self = Self {
+        first: Meridian::ZERO,
+        last: Meridian::ZERO,
+        pole: Vec3::ZERO,
+        to_zenith: false,
+        cos: 0.0,
+        sin2: 0.0,
+        inner_sin2: 0.0,
+        area: 0.0,
+    };
+
+    /// The piece from `first` counter-clockwise to `last`.
+    ///
+    /// * `pole` – cross product of the outer ends; of their azimuth vectors, its z, above 0
+    #[inline]
+    pub(super) fn new(first: Meridian, last: Meridian, pole: Vec3, to_zenith: bool) -> Self {
+        let (a, b) = (first.outer, last.outer);
+        let (ea, eb) = (a.truncate(), b.truncate());
+        let (qa, qb) = (first.square_rise(), last.square_rise());
+        let mixed = first.rise * last.height_sum() + last.rise * first.height_sum();
+        let inner_sin2 = eb.length_squared() * qa + ea.length_squared() * qb - ea.dot(eb) * mixed;
+        Self {
+            first,
+            last,
+            pole,
+            to_zenith,
+            cos: a.dot(b),
+            sin2: pole.length_squared(),
+            inner_sin2,
+            area: 0.0,
+        }
+    }
+
+    /// True when the outer arc is much beyond a right angle.
+    #[inline]
+    pub(super) fn is_wide(&self) -> bool {
+        self.cos < -0.1
+    }
+
+    /// Both halves of a wide piece; they are not wide.
+    ///
+    /// Derived: the bisector of two unit vectors by their cross product, which keeps its digits when
+    /// they are almost opposite.
+    pub(super) fn halves(&self) -> [Self; 2] {
+        let (a, b) = (self.first.outer, self.last.outer);
+        let doubled = 1.0 - self.cos;
+        // Length of the sum of both: √(2 + 2 cos).
+        let length = num::sqrt(2.0 * self.sin2 / doubled);
+        let bisector = (b - a).cross(self.pole) / (doubled * length);
+        let both = self.first.toward(&self.last, 0.5).times(2.0 / length);
+        let middle = Meridian { outer: Vec3 { z: both.outer.z, ..bisector }, ..both };
+        let half = |first, last| Self::new(first, last, self.pole / length, self.to_zenith);
+        [half(self.first, middle), half(middle, self.last)]
+    }
+
+    /// Works out the area.
+    #[inline]
+    pub(super) fn measure(&mut self) -> f32 {
+        self.area = self.area_to(1.0);
+        self.area
+    }
+
+    /// Projected solid angle (sr).
+    #[inline]
+    pub(super) fn area(&self) -> f32 {
+        self.area
+    }
+
+    /// True when it reaches up to the zenith.
+    #[inline]
+    pub(super) fn is_to_zenith(&self) -> bool {
+        self.to_zenith
+    }
+
+    /// The meridian at the fraction `t` of the chords.
+    #[inline]
+    pub(super) fn at(&self, t: f32) -> Meridian {
+        self.first.toward(&self.last, t)
+    }
+
+    /// The height above the outer end below which the share `v` of the meridian's `sin² θ` lies.
+    ///
+    /// Derived: `sin² θ` is the azimuth vector's square over that of the whole vector, Q, so `1 / Q`
+    /// is even between both ends.
+    #[inline]
+    pub(super) fn height_of(&self, meridian: &Meridian, v: f32) -> f32 {
+        let outer2 = meridian.outer.length_squared();
+        let square = if self.to_zenith {
+            outer2 * v / (1.0 - v)
+        } else {
+            let rise = meridian.square_rise();
+            outer2 * v * rise / (outer2 + (1.0 - v) * rise)
+        };
+        let low = meridian.outer.z;
+        let sum = low + num::sqrt(low * low + square);
+        if sum > 0.0 { square / sum } else { 0.0 }
+    }
+
+    /// The share of the meridian's `sin² θ` below a height above its outer end: the inverse of
+    /// [`Sector::height_of`].
+    #[inline]
+    pub(super) fn share_below(&self, meridian: &Meridian, height: f32) -> f32 {
+        let outer2 = meridian.outer.length_squared();
+        let square = height * (2.0 * meridian.outer.z + height);
+        let share = square / (outer2 + square);
+        if self.to_zenith {
+            return share;
+        }
+        let rise = meridian.square_rise();
+        if rise > 0.0 { share * ((outer2 + rise) / rise) } else { 0.0 }
+    }
+
+    /// Projected solid angle of the part up to the fraction `t` of the chords (sr).
+    ///
+    /// Derived: for an arc of angle θ with ends p_a, p_b, X the cross product of their azimuth
+    /// vectors and N = |p_a × p_b|, the part below is `½ X θ / N` (Lambert 1760). By
+    /// `tan(θ/2) = N / K`, `K = p_a·p_b + |p_a| |p_b|`, that is `X H(N² / K²) / K`, and the
+    /// difference of two such terms is one of divided differences.
+    #[inline]
+    pub(super) fn area_to(&self, t: f32) -> f32 {
+        let t2 = t * t;
+        let (cos, sin2) = (1.0 + t * (self.cos - 1.0), t2 * self.sin2);
+        let outer2 = cos * cos + sin2;
+        let outer = num::sqrt(outer2);
+        let k_outer = cos + outer;
+        let x_outer = sin2 / (k_outer * k_outer);
+        if self.to_zenith {
+            return self.pole.z * t * atan_ratio(x_outer) / k_outer;
+        }
+        let (da, sa) = (self.first.rise, self.first.height_sum());
+        let dt = da + t * (self.last.rise - da);
+        let st = sa + t * (self.last.height_sum() - sa);
+        let (qa, qt) = (da * sa, dt * st);
+        let square = qa * outer2 + qt + qa * qt;
+        let k_rise = 0.5 * (da * st + dt * sa) + square / (num::sqrt(outer2 + square) + outer);
+        let k_inner = k_outer + k_rise;
+        let per_k = 1.0 / k_inner;
+        // N² / K² of the outer arc less that of the inner one.
+        let x_fall = (x_outer * k_rise * (k_inner + k_outer) - t2 * self.inner_sin2) * per_k * per_k;
+        let (h, slope) = atan_ratio_and_slope(x_outer, (x_outer - x_fall).max(0.0));
+        self.pole.z * t * per_k * (k_rise * h / k_outer + slope * x_fall)
+    }
+
+    /// Derivative of [`Sector::area_to`]: the area of the strip at `meridian`.
+    #[inline]
+    fn strip(&self, meridian: &Meridian) -> f32 {
+        let outer2 = meridian.outer.length_squared();
+        let rise =
+            if self.to_zenith { 1.0 } else { meridian.square_rise() / (outer2 + meridian.square_rise()) };
+        0.5 * self.pole.z * rise / outer2
+    }
+
+    /// The fraction of the chords up to which the projected solid angle is `area` (sr).
+    ///
+    /// Newton's method on [`Sector::area_to`] within a shrinking bracket, from where a strip that
+    /// grows evenly would be.
+    #[inline]
+    pub(super) fn fraction_at(&self, area: f32) -> f32 {
+        let (f0, f1) = (self.strip(&self.first), self.strip(&self.last));
+        let share = area / self.area;
+        let root = num::sqrt(f0 * f0 + share * (f1 - f0) * (f1 + f0));
+        let mut t = share * (f0 + f1) / (f0 + root);
+        let (mut low, mut high) = (0.0, 1.0);
+        for _ in 0..MAX_STEPS {
+            if !(t >= low && t <= high) {
+                t = 0.5 * (low + high);
+            }
+            let error = self.area_to(t) - area;
+            if error.abs() <= TOLERANCE * self.area {
+                break;
+            }
+            if error > 0.0 {
+                high = t;
+            } else {
+                low = t;
+            }
+            t -= error / self.strip(&self.at(t));
+        }
+        t.clamp(0.0, 1.0)
+    }
+}
+
+/// Steps of Newton's method at most; two are common.
+const MAX_STEPS: usize = 16;
+
+/// Error of the inverted share: what [`Sector::area_to`] itself is good for.
+const TOLERANCE: f32 = 4e-6;
