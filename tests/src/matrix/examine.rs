@@ -171,8 +171,8 @@ impl<S: Specimen> Subject<'_, S> {
         let tally = Tally::of(MANY[usize::from(self.setup.aligned)], || {
             let Drawn { sample, pdf } = draw(&view, random.two())?;
             let share = f64::from(normal.dot(sample.wi).max(0.0)) / f64::from(pdf);
-            // By the point or by the direction, whichever is rounded less.
-            let near = sample.distance < sample.at.point.abs().max_element();
+            // By the point, unless it is so near that the direction is rounded much less.
+            let near = sample.distance < 1e-2 * self.setup.size as f32;
             let by_direction = sample.wi.as_dvec3() * f64::from(sample.distance);
             let place = if near { by_direction } else { sample.at.point.as_dvec3() - from };
             Some((self.truth.outlook.cell(place), share))
