@@ -1,1 +1,5 @@
 //! Regions of directions and uniform sampling over them: the geometry behind the lights' views.
+
+mod slab;
+
+pub(crate) use slab::{Span, Sweep};
