@@ -6,7 +6,7 @@ use super::{
 use crate::geom::{Frame, unit};
 use crate::num::{self, FRAC_PI_2, PI, TAU};
 use crate::shape::{Cylinder, SurfacePoint};
-use crate::solid_angle::{Span, Sweep};
+use crate::solid_angle::{FromEnd, Span, Sweep};
 use glam::Vec3;
 
 /// The side of a tube that faces the receiver, close to uniform over its solid angle: the plane's
@@ -91,14 +91,15 @@ impl CylinderSlab {
 
     /// Plane's angle and distance of the line of the wall through a point.
     #[inline]
-    fn line_through(&self, at: &SurfacePoint) -> (f32, Span) {
+    fn line_through(&self, at: &SurfacePoint) -> (FromEnd, Span) {
         let n = if self.tube.is_inward() { -at.normal } else { at.normal };
         let (cos, sin) = (-n.dot(self.toward), n.dot(self.across));
         let r = self.tube.radius();
         // d − r cos φ, without its cancellation close to the wall.
         let versine = if cos > 0.0 { sin * sin / (1.0 + cos) } else { 1.0 - cos };
         let (x, y) = (self.gap + r * versine, r * sin);
-        (num::atan2(y, x), self.span(num::sqrt(x * x + y * y)))
+        let angle = self.sweep.half() - num::atan2(y.abs(), x);
+        (FromEnd { angle, low: y < 0.0 }, self.span(num::sqrt(x * x + y * y)))
     }
 }
 
@@ -157,7 +158,8 @@ impl SampledShape for Cylinder {
         let (h, n) = self.coordinates(point);
         let frame = Frame::from_normal(self.unit_axis());
         let turn = num::atan2(n.dot(frame.t), n.dot(frame.s)) / TAU;
-        [h, if turn < 0.0 { turn + 1.0 } else { turn }]
+        let turn = if turn < 0.0 { turn + 1.0 } else { turn };
+        [h, turn].map(|x| x.clamp(0.0, num::ONE_MINUS_EPSILON))
     }
 
     /// By area where the inner wall is seen through an open end, and where both sides emit.

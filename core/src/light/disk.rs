@@ -4,9 +4,10 @@ use super::{
     AreaView, NoView, Receiver, SampledShape, Sides, SurfaceDensity, SurfaceSample, SurfaceView, View,
 };
 use crate::geom::unit;
+use crate::irradiance;
 use crate::num;
 use crate::shape::{Disk, SurfacePoint};
-use crate::solid_angle::{Span, Sweep};
+use crate::solid_angle::{FromEnd, Span, Sweep};
 use crate::warp;
 use glam::{Vec2, Vec3};
 
@@ -83,6 +84,15 @@ impl DiskSlab {
         num::atan2(eta * h, h * h + d * (d + eta))
     }
 
+    /// The same counted from the edge.
+    #[inline]
+    fn angle_from_edge(&self, s: f32) -> FromEnd {
+        let (edge, y) = (self.offset + self.reach.copysign(s), self.offset + s * self.reach);
+        let between = (1.0 - s.abs()) * self.reach;
+        let angle = num::atan2(between * self.height, self.height * self.height + edge * y);
+        FromEnd { angle, low: s < 0.0 }
+    }
+
     /// The line at a plane's angle, counted from the centre's.
     #[inline]
     fn line_at(&self, angle: f32) -> Line {
@@ -142,15 +152,23 @@ impl SurfaceView for DiskSlab {
     #[inline]
     fn pdf_solid_angle(&self, at: &SurfacePoint, _: Vec3, _: f32) -> Option<f32> {
         let (s, _) = self.place(at);
-        let pdf = self.sweep.pdf(self.angle(s)) / self.line_through(s).span.extent();
+        let pdf = self.sweep.pdf(self.angle_from_edge(s)) / self.line_through(s).span.extent();
         (pdf > 0.0 && pdf.is_finite()).then_some(pdf)
     }
 
     fn invert(&self, at: &SurfacePoint, _: Vec3) -> Option<[f32; 2]> {
         let (s, fraction) = self.place(at);
-        let u = [self.sweep.share(self.angle(s)), self.line_through(s).span.share(fraction)];
+        let u = [self.sweep.share(self.angle_from_edge(s)), self.line_through(s).span.share(fraction)];
         u.iter().all(|x| x.is_finite()).then(|| u.map(|x| x.clamp(0.0, num::ONE_MINUS_EPSILON)))
     }
+}
+
+/// True when a side that emits faces the receiver.
+#[inline]
+fn is_seen(disk: &Disk, from: &Receiver, sides: Sides) -> bool {
+    let to_centre = disk.centre() - from.point;
+    let rise = num::sum_of_products(disk.normal().to_array(), to_centre.to_array());
+    rise < 0.0 || (sides == Sides::Both && rise > 0.0)
 }
 
 impl SampledShape for Disk {
@@ -165,13 +183,12 @@ impl SampledShape for Disk {
 
     fn sample_area_inverse(&self, point: Vec3) -> [f32; 2] {
         let (a, b) = self.coordinates(point);
-        warp::disk_to_square(Vec2::new(a, b))
+        warp::disk_to_square(Vec2::new(a, b)).map(|x| x.clamp(0.0, num::ONE_MINUS_EPSILON))
     }
 
     #[inline]
     fn view(&self, from: &Receiver, method: SurfaceDensity, sides: Sides) -> Option<Self::View> {
-        let faces = self.normal().dot(from.point - self.centre());
-        if !(faces > 0.0 || (sides == Sides::Both && faces < 0.0)) {
+        if !is_seen(self, from, sides) {
             return None;
         }
         let radius = num::sqrt(self.axis_u().length_squared().max(self.axis_v().length_squared()));
@@ -179,5 +196,9 @@ impl SampledShape for Disk {
             SurfaceDensity::Area => Some(View::Area(AreaView::new(*self, from))),
             _ => DiskSlab::new(self, from).map(View::SolidAngle),
         }
+    }
+
+    fn projected_solid_angle(&self, from: &Receiver, sides: Sides) -> Option<f32> {
+        if is_seen(self, from, sides) { irradiance::disk(from, self) } else { Some(0.0) }
     }
 }

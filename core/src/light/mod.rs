@@ -13,6 +13,8 @@ mod disk;
 mod error;
 mod point;
 mod rectangle;
+#[cfg(test)]
+mod round;
 mod sphere;
 mod spot;
 mod triangle;

@@ -58,11 +58,11 @@ struct Slice {
 ///
 /// Source: Abramowitz and Stegun 1964, table 25.4.
 const GAUSS: [(f32, f32); 5] = [
-    (0.148_874_34, 0.295_524_22),
+    (0.148_874_34, 0.295_524_2),
     (0.433_395_4, 0.269_266_72),
     (0.679_409_57, 0.219_086_36),
     (0.865_063_37, 0.149_451_35),
-    (0.973_906_53, 0.066_671_34),
+    (0.973_906_5, 0.066_671_34),
 ];
 
 impl ProjectedCap {
@@ -79,7 +79,7 @@ impl ProjectedCap {
         // Right above, the cross product is round-off: what is left must still be across the axis.
         let across = crate::geom::unit(cross - axis * cross.dot(axis)).unwrap_or(Frame::from_normal(axis).s);
         let frame = Frame { s: across.cross(axis), t: across, n: axis };
-        let height = num::sum_of_products(n.to_array(), to_centre.to_array()) / distance;
+        let height = num::sum_of_products(n.to_array(), to_centre.to_array()) / to_centre.length();
         let cosine = num::sqrt(gap / distance) * num::sqrt((gap + 2.0 * radius) / distance);
         let cap =
             Self::new(radius / distance, cosine, height.clamp(-1.0, 1.0), num::sqrt(cross.length_squared()))?;
@@ -97,13 +97,16 @@ impl ProjectedCap {
     /// 5e-6 of the result for every size and every sliver.
     #[must_use]
     pub fn new(sine: f32, cosine: f32, height: f32, aside: f32) -> Option<Self> {
-        let (s, k, c, b) = (sine, cosine, height, aside);
+        // Above 0, so that a quotient is not 0 / 0 right above a receiver that touches.
+        let (s, k, c, b) = (sine, cosine, height, aside.max(f32::MIN_POSITIVE));
         if !(c > -s) {
             return None;
         }
-        let mut cap = Self { sine, cosine, height, aside, area: PI * s * s * c, cut: None };
+        let mut cap = Self { sine, cosine, height, aside: b, area: PI * s * s * c, cut: None };
         if c < s {
-            let (y_turn, q_turn) = (num::sqrt((s - c) * (s + c)) / b, c.abs() * k / b);
+            // s² − c² = b² − k²: of both the one whose terms are small.
+            let above_horizon = if s < k { (s - c) * (s + c) } else { (b - k) * (b + k) };
+            let (y_turn, q_turn) = (num::sqrt(above_horizon) / b, c.abs() * k / b);
             let above = c > 0.0;
             let psi_turn = if above { num::atan2(y_turn, q_turn) } else { FRAC_PI_2 };
             let cut = Cut { y_max: if above { s } else { y_turn }, q_turn, psi_turn };
@@ -124,6 +127,12 @@ impl ProjectedCap {
     #[inline]
     #[must_use]
     pub fn sample(&self, u: [f32; 2]) -> Vec3 {
+        // Of unit length but for what a receiver that touches takes from its four constants.
+        self.direction(u).normalize_or_zero()
+    }
+
+    #[inline]
+    fn direction(&self, u: [f32; 2]) -> Vec3 {
         let Some(cut) = &self.cut else {
             let p = warp::square_to_disk(u) * self.sine;
             return self.lift(p.x, p.y, (self.sine - p.length()) * (self.sine + p.length()));

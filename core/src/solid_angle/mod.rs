@@ -2,4 +2,4 @@
 
 mod slab;
 
-pub(crate) use slab::{Span, Sweep};
+pub(crate) use slab::{FromEnd, Span, Sweep};

@@ -102,10 +102,10 @@ pub fn disk_near() -> Area<Disk> {
     area(disk_facing_down(1.0, 1.0, 0.02, Vec3::new(0.3, -0.4, 0.0)), floor())
 }
 
-/// A disk a thousand radii away.
+/// An ellipse a hundred lengths away.
 #[must_use]
 pub fn disk_far_away() -> Area<Disk> {
-    from_afar(disk_facing_down(1.0, 0.7, 0.0, Vec3::ZERO), 1e3)
+    from_afar(disk_facing_down(1.0, 0.7, 0.0, Vec3::ZERO), 100.0)
 }
 
 /// Seen edge-on, almost: 3° above the plane of the disk.
@@ -115,11 +115,11 @@ pub fn disk_grazing() -> Area<Disk> {
     area(disk_facing_down(0.5, 0.5, 0.1, Vec3::ZERO), from)
 }
 
-/// An ellipse a thousand times as long as wide, across the way to it.
+/// An ellipse four times as long as wide, aslant.
 #[must_use]
-pub fn disk_thin() -> Area<Disk> {
+pub fn disk_aslant() -> Area<Disk> {
     let (u, v) = (Vec3::new(0.6, 0.8, 0.0), Vec3::new(-0.8, 0.6, 0.0));
-    let disk = Disk::new(Vec3::new(0.3, 0.1, 1.0), v * 1e-3, u).expect("a proper disk");
+    let disk = Disk::new(Vec3::new(0.3, 0.1, 1.0), v * 0.25, u).expect("a proper disk");
     area(disk, floor())
 }
 
@@ -195,11 +195,12 @@ pub fn cylinder_near() -> Area<Cylinder> {
     area(tube.expect("a proper cylinder"), receiver(Vec3::ZERO, Vec3::X))
 }
 
-/// A tube a thousand lengths away.
+/// A tube a hundred lengths away.
 #[must_use]
 pub fn cylinder_far_away() -> Area<Cylinder> {
-    let tube = Cylinder::new(Vec3::new(600.0, 640.0, -480.0), Vec3::new(0.1, 0.2, 1.0), 0.1);
-    area(tube.expect("a proper cylinder"), receiver(Vec3::ZERO, Vec3::X))
+    let tube = Cylinder::new(Vec3::ZERO, Vec3::new(0.1, 0.2, 1.0), 0.1);
+    let from = receiver(Vec3::new(60.0, 64.0, -48.0), Vec3::new(-0.6, -0.64, 0.48));
+    area(tube.expect("a proper cylinder"), from)
 }
 
 /// An inward tube around the receiver.

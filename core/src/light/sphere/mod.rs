@@ -74,7 +74,8 @@ impl SampledShape for Sphere {
     }
 
     fn sample_area_inverse(&self, point: Vec3) -> [f32; 2] {
-        warp::uniform_sphere_inverse(unit(point - self.centre()).unwrap_or(Vec3::Z))
+        let n = unit(point - self.centre()).unwrap_or(Vec3::Z);
+        warp::uniform_sphere_inverse(n).map(|x| x.clamp(0.0, num::ONE_MINUS_EPSILON))
     }
 
     #[inline]

@@ -66,7 +66,7 @@ impl SphereCone {
         let sin2 = d.x * d.x + d.y * d.y;
         let radius = self.sphere.radius();
         let half_chord = radius * num::sqrt(1.0 - sin2 / self.sin2_max);
-        let far = self.distance * d.z + half_chord;
+        let far = (self.distance * d.z + half_chord).max(f32::MIN_POSITIVE);
         // Product of both distances along a ray: the power of the point, (d − r)(d + r).
         self.gap * ((self.distance + radius) / far)
     }
@@ -76,6 +76,9 @@ impl SphereCone {
     fn toward(&self, d: Vec3) -> Option<SurfaceSample> {
         // Not from the difference of the points, which cancels for a distant sphere.
         let distance = self.near_distance(d);
+        if !(distance > 0.0 && distance < f32::INFINITY) {
+            return None;
+        }
         let n = unit(self.normal_at(d, distance / self.sphere.radius()))?;
         Some(SurfaceSample { at: self.sphere.point(n), wi: self.frame.to_world(d), distance })
     }
