@@ -6,9 +6,9 @@
 
 use crate::num;
 
-/// Intervals of a sweep's table. With 8, the relative variance of the solid angle is 3e-3 for a
-/// distant disk, 9e-4 for one that is almost touched, 5e-4 for a tube alongside, 2e-2 for an ellipse
-/// of 1 : 10 and a receiver below it.
+/// Intervals of a sweep's table. With 8, the relative variance of the solid angle is 1e-4 for a
+/// disk five radii away, 3e-3 for one that is almost touched, 1e-3 for a tube alongside; 0.4 for a
+/// tube that is seen along its wall, from a fiftieth of its radius off it and half a radius before it.
 const INTERVALS: usize = 8;
 
 /// A part of a line, parallel to the axis, as seen from the receiver: one value of `α`.
@@ -89,48 +89,47 @@ impl Span {
 
 /// A density over the angles of a sweep, `[middle − half, middle + half]`.
 ///
-/// The angle is `middle + half x`, `x = 2 τ / (1 + τ²)` with `τ` in `[−1, 1]`: the substitution
-/// `x = sin`, without a sine. It takes the roots off both ends. Over `τ` the density is piecewise
-/// linear, but for the first and the last interval: there it falls to 0 as a sum of a line and a
-/// parabola, the one for a light whose extent ends abruptly, the other for one with a round edge.
+/// It is piecewise linear, but for the first and the last interval: there it is constant, for a
+/// light whose extent ends abruptly, falls to 0 as a root, for one with a round edge, or blends the
+/// two; a light that is seen more toward an end has a line there too.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Sweep {
     middle: f32,
     half: f32,
     /// Density over an interval at its ends, as a share of the whole.
     density: [f32; INTERVALS + 1],
-    /// The share of the first and of the last interval that is parabolic.
-    round: [f32; 2],
+    /// How the density ends.
+    ends: [End; 2],
 }
 
 impl Sweep {
     /// What is there before anything is tabulated.
     pub(crate) const EMPTY: Self =
-        Self { middle: 0.0, half: 0.0, density: [0.0; INTERVALS + 1], round: [0.0; 2] };
+        Self { middle: 0.0, half: 0.0, density: [0.0; INTERVALS + 1], ends: [End { round: 0.0 }; 2] };
 
     /// Tabulates what is seen between two angles (rad); `None` when that is nothing.
     ///
     /// * `extent` – the light's extent in `h` at an angle
     pub(crate) fn new(low: f32, high: f32, extent: impl Fn(f32) -> f32) -> Option<Self> {
-        let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
-        let seen = |place: f32| {
-            let tau = STEP * place - 1.0;
-            extent(middle + half * (2.0 * tau / (1.0 + tau * tau))) * slope(tau)
-        };
-        let mut sweep = Self { middle, half, ..Self::EMPTY };
-        for i in 1..INTERVALS {
-            sweep.density[i] = seen(i as f32);
+        let mut sweep = Self { middle: 0.5 * (low + high), half: 0.5 * (high - low), ..Self::EMPTY };
+        let seen = |place: f32| extent(sweep.middle + sweep.half * (STEP * place - 1.0));
+        let mut density = [0.0; INTERVALS + 1];
+        for (i, d) in density.iter_mut().enumerate().take(INTERVALS).skip(1) {
+            *d = seen(i as f32);
         }
-        for (end, place) in [(0, 0.5), (1, INTERVALS as f32 - 0.5)] {
-            // A line halves halfway to the end, a parabola falls to a quarter.
-            let ratio = seen(place) / sweep.density[if end == 0 { 1 } else { INTERVALS - 1 }];
-            sweep.round[end] = ((1.0 - 2.0 * ratio) / (ratio + 0.25)).clamp(0.0, 1.0);
-        }
+        let halfway = [seen(0.5), seen(INTERVALS as f32 - 0.5)];
+        let next = [density[1], density[INTERVALS - 1]];
+        let ends = [End::new(halfway[0] / next[0]), End::new(halfway[1] / next[1])];
+        // One that rises to an end goes on as a line.
+        let rising = |i: usize| (2.0 * (halfway[i] - next[i])).max(0.0);
+        let line = |i: usize| if rising(i) > 0.0 { next[i] + rising(i) } else { 0.0 };
+        (density[0], density[INTERVALS]) = (line(0), line(1));
+        (sweep.density, sweep.ends) = (density, ends);
         let scale = 1.0 / (0..INTERVALS).map(|i| sweep.mass(i)).sum::<f32>();
-        if !(half > 0.0 && scale > 0.0 && scale < f32::INFINITY) {
+        if !(sweep.half > 0.0 && scale > 0.0 && scale < f32::INFINITY) {
             return None;
         }
-        sweep.density = sweep.density.map(|d| d * scale);
+        sweep.density = density.map(|d| d * scale);
         Some(sweep)
     }
 
@@ -140,12 +139,12 @@ impl Sweep {
         self.half
     }
 
-    /// The parabolic share of an interval at an end; `None` elsewhere.
+    /// How the density ends in an interval at an end; `None` elsewhere, and where it rises as a line.
     #[inline]
-    fn end(&self, i: usize) -> Option<f32> {
+    fn end(&self, i: usize) -> Option<End> {
         match i {
-            0 => Some(self.round[0]),
-            _ if i == INTERVALS - 1 => Some(self.round[1]),
+            0 if self.density[0] == 0.0 => Some(self.ends[0]),
+            _ if i == INTERVALS - 1 && self.density[INTERVALS] == 0.0 => Some(self.ends[1]),
             _ => None,
         }
     }
@@ -154,7 +153,7 @@ impl Sweep {
     #[inline]
     fn mass(&self, i: usize) -> f32 {
         let sum = self.density[i] + self.density[i + 1];
-        self.end(i).map_or(0.5 * sum, |w| sum / (2.0 + w))
+        self.end(i).map_or(0.5 * sum, |end| sum / end.density(1.0))
     }
 
     /// Draws an angle (rad).
@@ -167,8 +166,8 @@ impl Sweep {
         }
         let mass = self.mass(i);
         let t = match self.end(i) {
-            Some(w) if i == 0 => from_end((left / mass).min(1.0), w),
-            Some(w) => 1.0 - from_end((1.0 - left / mass).max(0.0), w),
+            Some(end) if i == 0 => end.sample((left / mass).min(1.0)),
+            Some(end) => 1.0 - end.sample((1.0 - left / mass).max(0.0)),
             None => {
                 // Root of a t + (b − a) t² / 2 = left, in the form that does not cancel.
                 let (a, b) = (self.density[i], self.density[i + 1]);
@@ -176,70 +175,89 @@ impl Sweep {
                 if root > 0.0 { (2.0 * left / root).min(1.0) } else { 0.0 }
             }
         };
-        let tau = STEP * (i as f32 + t) - 1.0;
-        self.middle + self.half * (2.0 * tau / (1.0 + tau * tau))
+        self.middle + self.half * (STEP * (i as f32 + t) - 1.0)
     }
 
-    /// Where an angle is in the table: the interval, the fraction of it before and after the angle,
-    /// and `dα / dτ`.
+    /// Where an angle is in the table: the interval, and the fraction of it before and after the
+    /// angle.
     #[inline]
-    fn find(&self, from: FromEnd) -> (usize, [f32; 2], f32) {
+    fn find(&self, from: FromEnd) -> (usize, [f32; 2]) {
         let rest = (from.angle / self.half).clamp(0.0, 2.0);
         let (below, rest) = if rest > 1.0 { (!from.low, 2.0 - rest) } else { (from.low, rest) };
-        // 1 − |τ| of 1 − |x|: with its digits at both ends.
-        let cos = num::sqrt(rest * (2.0 - rest));
-        let rest = (rest + cos) / (1.0 + cos);
         let place = rest / STEP;
         let end = (place as usize).min(INTERVALS / 2 - 1);
         let t = place - end as f32;
-        let (i, t) = if below { (end, [t, 1.0 - t]) } else { (INTERVALS - 1 - end, [1.0 - t, t]) };
-        (i, t, self.half * slope(1.0 - rest))
+        if below { (end, [t, 1.0 - t]) } else { (INTERVALS - 1 - end, [1.0 - t, t]) }
     }
 
     /// Density of an angle (rad⁻¹).
     #[inline]
     pub(crate) fn pdf(&self, angle: FromEnd) -> f32 {
-        let (i, [before, after], slope) = self.find(angle);
-        let (a, b) = (self.density[i], self.density[i + 1]);
+        let (i, [before, after]) = self.find(angle);
         let density = match self.end(i) {
-            Some(w) => {
-                let t = if i == 0 { before } else { after };
-                self.mass(i) * t * (2.0 * (1.0 - w) + 3.0 * w * t)
-            }
-            None => a * after + b * before,
+            Some(end) => self.mass(i) * end.density(if i == 0 { before } else { after }),
+            None => self.density[i] * after + self.density[i + 1] * before,
         };
-        density / (STEP * slope)
+        density / (STEP * self.half)
     }
 
     /// Inverse of [`Sweep::sample`].
     pub(crate) fn share(&self, angle: FromEnd) -> f32 {
-        let (i, [before, after], _) = self.find(angle);
+        let (i, [before, after]) = self.find(angle);
         let below: f32 = (0..i).map(|j| self.mass(j)).sum();
         let (a, b) = (self.density[i], self.density[i + 1]);
-        let part = |t: f32, w: f32| t * t * (1.0 - w + w * t);
         below
             + match self.end(i) {
-                Some(w) if i == 0 => self.mass(i) * part(before, w),
-                Some(w) => self.mass(i) * (1.0 - part(after, w)),
+                Some(end) if i == 0 => self.mass(i) * end.share(before),
+                Some(end) => self.mass(i) * (1.0 - end.share(after)),
                 None => before * (a + 0.5 * (b - a) * before),
             }
     }
 }
 
-/// `t` with `(1 − w) t² + w t³ = u`, in `[0, 1]`: Newton's method from above, where the cubic is
-/// convex.
-#[inline]
-fn from_end(u: f32, w: f32) -> f32 {
-    let mut t = 1.0_f32;
-    for _ in 0..24 {
-        let slope = t * (2.0 * (1.0 - w) + 3.0 * w * t);
-        let next = t - (t * t * (1.0 - w + w * t) - u) / slope;
-        if !(next < t && next > 0.0) {
-            break;
-        }
-        t = next;
+/// A density over `t` in `[0, 1]`: the blend of a constant and of the root `3/2 √t`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct End {
+    /// Share of the root.
+    round: f32,
+}
+
+impl End {
+    /// * `ratio` – of the value halfway to that at 1: 1 for an abrupt end, `√(15/28)` for a circle's
+    ///   chords in the last eighth of its width
+    ///
+    /// From halfway on it is the root alone: at a rim, what remains of the constant would let the
+    /// light's density grow beyond all bounds.
+    fn new(ratio: f32) -> Self {
+        let circle = num::sqrt(15.0 / 28.0);
+        Self { round: (2.0 * (1.0 - ratio) / (1.0 - circle)).clamp(0.0, 1.0) }
     }
-    if u > 0.0 { t } else { 0.0 }
+
+    #[inline]
+    fn density(&self, t: f32) -> f32 {
+        1.0 - self.round + self.round * 1.5 * num::sqrt(t)
+    }
+
+    /// What is below `t`.
+    #[inline]
+    fn share(&self, t: f32) -> f32 {
+        t * (1.0 - self.round + self.round * num::sqrt(t))
+    }
+
+    /// `t` with the share `u` below: Newton's method for `√t`, from above, where the share is convex.
+    #[inline]
+    fn sample(&self, u: f32) -> f32 {
+        let (a, b) = (1.0 - self.round, self.round);
+        let mut z = 1.0_f32;
+        for _ in 0..24 {
+            let next = z - (z * z * (a + b * z) - u) / (z * (2.0 * a + 3.0 * b * z));
+            if !(next < z && next > 0.0) {
+                break;
+            }
+            z = next;
+        }
+        if u > 0.0 { z * z } else { 0.0 }
+    }
 }
 
 /// An angle of a sweep, counted from one of its ends (rad): where the light's edge is round, the
@@ -251,12 +269,5 @@ pub(crate) struct FromEnd {
     pub(crate) low: bool,
 }
 
-/// Width of an interval in `τ`.
+/// Width of an interval, for a sweep of 2.
 const STEP: f32 = 2.0 / INTERVALS as f32;
-
-/// `dx / dτ` of `x = 2 τ / (1 + τ²)`.
-#[inline]
-fn slope(tau: f32) -> f32 {
-    let sum = 1.0 + tau * tau;
-    2.0 * (1.0 - tau) * (1.0 + tau) / (sum * sum)
-}

@@ -102,10 +102,10 @@ pub fn disk_near() -> Area<Disk> {
     area(disk_facing_down(1.0, 1.0, 0.02, Vec3::new(0.3, -0.4, 0.0)), floor())
 }
 
-/// An ellipse a hundred lengths away.
+/// An ellipse a thousand radii away, seen from 40° off its normal.
 #[must_use]
 pub fn disk_far_away() -> Area<Disk> {
-    from_afar(disk_facing_down(1.0, 0.7, 0.0, Vec3::ZERO), 100.0)
+    from_afar(disk_facing_down(1.0, 0.7, 0.0, Vec3::ZERO), 1e3)
 }
 
 /// Seen edge-on, almost: 3° above the plane of the disk.
@@ -239,10 +239,10 @@ pub fn cylinder_beside() -> Area<Cylinder> {
     area(tube.expect("a proper cylinder"), receiver(Vec3::ZERO, Vec3::X))
 }
 
-/// A tube whose wall is a fiftieth of its radius away.
+/// A tube whose wall is a tenth of its radius away.
 #[must_use]
 pub fn cylinder_near() -> Area<Cylinder> {
-    let tube = Cylinder::new(Vec3::new(1.02, 0.0, -0.7), Vec3::Z * 2.0, 1.0);
+    let tube = Cylinder::new(Vec3::new(1.1, 0.0, -0.7), Vec3::Z * 2.0, 1.0);
     area(tube.expect("a proper cylinder"), receiver(Vec3::ZERO, Vec3::X))
 }
 
