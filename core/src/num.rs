@@ -83,6 +83,39 @@ pub fn atan2(y: f32, x: f32) -> f32 {
     libm::atan2f(y, x)
 }
 
+/// `Σ a_i b_i` as if in twice the precision, rounded once: keeps its digits when the terms cancel.
+///
+/// Source: Ogita, Rump, Oishi 2005, *Accurate Sum and Dot Product*, SIAM J. Sci. Comput. 26(6),
+/// algorithm 5.3. Differs: terms too large for its splitting are summed plainly.
+#[must_use]
+pub fn sum_of_products<const N: usize>(a: [f32; N], b: [f32; N]) -> f32 {
+    let (mut sum, mut error) = (0.0, 0.0);
+    for i in 0..N {
+        let (product, low) = exact_product(a[i], b[i]);
+        let next = sum + product;
+        let part = next - sum;
+        error += (sum - (next - part)) + (product - part) + low;
+        sum = next;
+    }
+    if error.is_finite() { sum + error } else { sum }
+}
+
+/// A product and its rounding error, without a fused multiply-add.
+///
+/// Source: Dekker 1971, *A Floating-Point Technique for Extending the Available Precision*, Numer.
+/// Math. 18, section 5; the halves have 12 bits.
+#[inline]
+fn exact_product(a: f32, b: f32) -> (f32, f32) {
+    let halves = |x: f32| {
+        let scaled = 4097.0 * x;
+        let high = scaled - (scaled - x);
+        (high, x - high)
+    };
+    let ((ah, al), (bh, bl)) = (halves(a), halves(b));
+    let product = a * b;
+    (product, al * bl - (((product - ah * bh) - al * bh) - ah * bl))
+}
+
 /// Arc cosine (rad); the argument is clamped to `[−1, 1]`.
 #[inline]
 #[must_use]
@@ -123,4 +156,26 @@ pub const fn hash2(a: u32, b: u32) -> u32 {
 #[must_use]
 pub const fn unit_f32(bits: u32) -> f32 {
     (bits >> 8) as f32 * (1.0 / 16_777_216.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sums_of_products_survive_cancellation() {
+        for i in 0..10_000u32 {
+            let random = |j| unit_f32(hash2(i, j)) - 0.5;
+            let a = [random(0), random(1), random(2)];
+            let b = [random(3), random(4), -(a[0] * random(3) + a[1] * random(4)) / a[2]];
+            let exact: f64 = (0..3).map(|j| f64::from(a[j]) * f64::from(b[j])).sum();
+            let got = f64::from(sum_of_products(a, b));
+            assert!((got - exact).abs() <= 1e-7 * exact.abs() + 1e-13, "{a:?} {b:?} {got} {exact}");
+        }
+    }
+
+    #[test]
+    fn sums_of_huge_products_stay_finite() {
+        assert_eq!(sum_of_products([1e36, 1.0], [1.0, 1.0]), 1e36);
+    }
 }

@@ -10,6 +10,17 @@ macro_rules! conformance {
             conformance!(@sampled by_solid_angle, halflight::light::SurfaceDensity::SolidAngle, $subject);
         }
     };
+    (solid_angle $name:ident, $subject:expr) => {
+        mod $name {
+            conformance!(@sampled by_solid_angle, halflight::light::SurfaceDensity::SolidAngle, $subject);
+        }
+    };
+    (projected $name:ident, $subject:expr) => {
+        mod $name {
+            conformance!(@sampled by_projected, halflight::light::SurfaceDensity::Projected,
+                $subject.projected());
+        }
+    };
     (@sampled $method:ident, $density:expr, $subject:expr) => {
         mod $method {
             use halflight_tests::{Verdict, lights};
@@ -71,6 +82,21 @@ conformance!(sphere_far_away, lights::sphere(1.0, 1e3));
 conformance!(sphere_two_sided, lights::sphere_two_sided());
 conformance!(sphere_from_inside, lights::sphere_from_inside());
 conformance!(sphere_from_its_wall, lights::sphere_from_its_wall());
+conformance!(solid_angle sphere_touched, lights::sphere(1.0, 1.001));
+conformance!(projected sphere_projected, lights::sphere(1.0, 3.0));
+conformance!(projected sphere_projected_near, lights::sphere(1.0, 1.001));
+conformance!(projected sphere_projected_far_away, lights::sphere(1.0, 1e3));
+conformance!(projected sphere_projected_from_inside, lights::sphere_from_inside());
+conformance!(projected sphere_half_set, lights::sphere_at_the_horizon(1.0, 1.5, 0.2));
+conformance!(projected sphere_almost_risen, lights::sphere_at_the_horizon(1.0, 3.0, 0.3));
+conformance!(projected sphere_almost_set, lights::sphere_at_the_horizon(1.0, 2.0, -0.3));
+conformance!(projected sphere_touched_and_set, lights::sphere_at_the_horizon(1.0, 1.001, -0.5));
+conformance!(disk_near, lights::disk_near());
+conformance!(disk_far_away, lights::disk_far_away());
+conformance!(disk_grazing, lights::disk_grazing());
+conformance!(disk_aslant, lights::disk_aslant());
+conformance!(cylinder_near, lights::cylinder_near());
+conformance!(cylinder_far_away, lights::cylinder_far_away());
 conformance!(triangle_overhead, lights::triangle_overhead());
 conformance!(triangle_far_away, lights::triangle_far_away());
 conformance!(triangle_two_sided, lights::triangle_two_sided());

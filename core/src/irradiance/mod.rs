@@ -2,9 +2,14 @@
 //!
 //! The radiance is 1 (W m⁻² sr⁻¹) throughout, so that the irradiance is the projected solid angle (sr).
 
+mod disk;
 mod polygon;
+mod sphere;
 
+pub use disk::disk;
 pub use polygon::{polygon, rectangle, triangle};
+pub use sphere::sphere;
+pub(crate) use sphere::sphere_at;
 
 #[cfg(test)]
 mod tests;

@@ -1,13 +1,150 @@
 //! Sampling an open cylinder.
 
-use super::{AreaView, NoView, Receiver, SampledShape, Sides, SurfaceDensity, View};
-use crate::geom::Frame;
-use crate::num::{self, TAU};
+use super::{
+    AreaView, NoView, Receiver, SampledShape, Sides, SurfaceDensity, SurfaceSample, SurfaceView, View,
+};
+use crate::geom::{Frame, unit};
+use crate::num::{self, FRAC_PI_2, PI, TAU};
 use crate::shape::{Cylinder, SurfacePoint};
+use crate::solid_angle::{FromEnd, Span, Sweep};
 use glam::Vec3;
 
+/// The side of a tube that faces the receiver, close to uniform over its solid angle: the plane's
+/// angle about a parallel of the tube's axis through the receiver is drawn from a table; the
+/// elevation's sine uniformly over the line of the wall that is seen at that angle.
+///
+/// Derived: as for a disk, the density is exact whatever the table holds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CylinderSlab {
+    tube: Cylinder,
+    /// Along the tube's axis, to it, and across both.
+    axis: Vec3,
+    toward: Vec3,
+    across: Vec3,
+    /// Lower end above the receiver, and length (m).
+    start: f32,
+    length: f32,
+    /// Distance of the receiver from the tube's axis, and from its wall (m); the latter negative inside.
+    distance: f32,
+    gap: f32,
+    sweep: Sweep,
+}
+
+impl CylinderSlab {
+    /// * `inside` – whether it is the inner wall that is seen, from within
+    fn new(tube: &Cylinder, from: &Receiver, inside: bool) -> Option<Self> {
+        let (axis, to_base) = (tube.unit_axis(), tube.base() - from.point);
+        let start = num::sum_of_products(axis.to_array(), to_base.to_array());
+        let aside = to_base - axis * start;
+        let toward = unit(aside - axis * aside.dot(axis)).unwrap_or(Frame::from_normal(axis).s);
+        let mut slab = Self {
+            tube: *tube,
+            axis,
+            toward,
+            across: axis.cross(toward),
+            start,
+            length: tube.axis().length(),
+            distance: aside.dot(toward).max(0.0),
+            gap: clearance(tube, from.point),
+            sweep: Sweep::EMPTY,
+        };
+        if !inside {
+            slab.gap = slab.gap.max(f32::MIN_POSITIVE);
+            slab.distance = slab.gap + tube.radius();
+        } else if slab.gap > 0.0 {
+            (slab.gap, slab.distance) = (0.0, tube.radius());
+        }
+        // A right angle from the wall itself; less from afar.
+        let tangent = num::sqrt(slab.gap) * num::sqrt(slab.distance + tube.radius());
+        let half = if inside { PI } else { num::atan2(tube.radius(), tangent).min(FRAC_PI_2) };
+        slab.sweep = Sweep::new(-half, half, |angle| slab.line_at(angle).0.extent())?;
+        Some(slab)
+    }
+
+    /// The line of the wall at a plane's angle, and its unit direction from the tube's axis in the
+    /// local axes `toward` and `across`.
+    #[inline]
+    fn line_at(&self, angle: f32) -> (Span, [f32; 2], [f32; 2]) {
+        let (sin, cos) = num::sin_cos(angle);
+        let (d, r) = (self.distance, self.tube.radius());
+        let half_chord = num::sqrt((r - d * sin) * (r + d * sin));
+        // Product of the distances to both ends of the chord: (d − r)(d + r).
+        let power = self.gap * (d + r);
+        let middle = d * cos;
+        let away = if self.gap > 0.0 {
+            power / (middle + half_chord)
+        } else if middle > 0.0 {
+            middle + half_chord
+        } else {
+            -power / (half_chord - middle)
+        };
+        // From the axis: its own direction is t (cos, sin) − (d, 0).
+        let side = if self.gap > 0.0 { -half_chord } else { half_chord };
+        let out = [(side * cos - d * sin * sin) / r, sin * (away / r)];
+        (self.span(away), out, [cos, sin])
+    }
+
+    #[inline]
+    fn span(&self, away: f32) -> Span {
+        Span { start: self.start, length: self.length, away }
+    }
+
+    /// Plane's angle and distance of the line of the wall through a point.
+    #[inline]
+    fn line_through(&self, at: &SurfacePoint) -> (FromEnd, Span) {
+        let n = if self.tube.is_inward() { -at.normal } else { at.normal };
+        let (cos, sin) = (-n.dot(self.toward), n.dot(self.across));
+        let r = self.tube.radius();
+        // d − r cos φ, without its cancellation close to the wall.
+        let versine = if cos > 0.0 { sin * sin / (1.0 + cos) } else { 1.0 - cos };
+        let (x, y) = (self.gap + r * versine, r * sin);
+        let angle = self.sweep.half() - num::atan2(y.abs(), x);
+        (FromEnd { angle, low: y < 0.0 }, self.span(num::sqrt(x * x + y * y)))
+    }
+}
+
+impl SurfaceView for CylinderSlab {
+    #[inline]
+    fn sample(&self, u: [f32; 2]) -> Option<SurfaceSample> {
+        let (span, out, [cos, sin]) = self.line_at(self.sweep.sample(u[0]));
+        if !(span.away > 0.0) {
+            return None;
+        }
+        let (y, fraction) = span.at(u[1]);
+        let n = unit(self.toward * out[0] + self.across * out[1])?;
+        let distance = num::sqrt(y * y + span.away * span.away);
+        let plane = self.toward * cos + self.across * sin;
+        let wi = unit(self.axis * (y / distance) + plane * (span.away / distance))?;
+        Some(SurfaceSample { at: self.tube.point(fraction, n), wi, distance })
+    }
+
+    #[inline]
+    fn pdf_solid_angle(&self, at: &SurfacePoint, _: Vec3, _: f32) -> Option<f32> {
+        let (angle, span) = self.line_through(at);
+        let pdf = self.sweep.pdf(angle) / span.extent();
+        (pdf > 0.0 && pdf.is_finite()).then_some(pdf)
+    }
+
+    fn invert(&self, at: &SurfacePoint, _: Vec3) -> Option<[f32; 2]> {
+        let (angle, span) = self.line_through(at);
+        let (fraction, _) = self.tube.coordinates(at.point);
+        let u = [self.sweep.share(angle), span.share(fraction.clamp(0.0, 1.0))];
+        u.iter().all(|x| x.is_finite()).then(|| u.map(|x| x.clamp(0.0, num::ONE_MINUS_EPSILON)))
+    }
+}
+
+/// How far a point is from the wall of a tube that goes on for ever (m); negative inside.
+fn clearance(tube: &Cylinder, point: Vec3) -> f32 {
+    let (axis, v) = (tube.unit_axis(), tube.base() - point);
+    let aside = v - axis * num::sum_of_products(axis.to_array(), v.to_array());
+    let radius = tube.radius();
+    let power =
+        num::sum_of_products([aside.x, aside.y, aside.z, radius], [aside.x, aside.y, aside.z, -radius]);
+    power / (aside.length() + radius)
+}
+
 impl SampledShape for Cylinder {
-    type View = View<Self, NoView, NoView>;
+    type View = View<Self, CylinderSlab, NoView>;
 
     /// Density `1 / (2π r l)` (m⁻²); `u[0]` is the height, `u[1]` the turn around the axis.
     #[inline]
@@ -21,11 +158,24 @@ impl SampledShape for Cylinder {
         let (h, n) = self.coordinates(point);
         let frame = Frame::from_normal(self.unit_axis());
         let turn = num::atan2(n.dot(frame.t), n.dot(frame.s)) / TAU;
-        [h, if turn < 0.0 { turn + 1.0 } else { turn }]
+        let turn = if turn < 0.0 { turn + 1.0 } else { turn };
+        [h, turn].map(|x| x.clamp(0.0, num::ONE_MINUS_EPSILON))
     }
 
+    /// By area where the inner wall is seen through an open end, and where both sides emit.
     #[inline]
-    fn view(&self, from: &Receiver, _: SurfaceDensity, _: Sides) -> Option<Self::View> {
-        Some(View::Area(AreaView::new(*self, from)))
+    fn view(&self, from: &Receiver, method: SurfaceDensity, sides: Sides) -> Option<Self::View> {
+        let reach = self.base().abs().max_element() + self.axis().abs().max_element() + self.radius();
+        let (gap, rounding) = (clearance(self, from.point), num::gamma(16) * reach);
+        let (outward, inside) = (!self.is_inward(), gap < rounding);
+        if sides == Sides::Front && outward && !(gap > -rounding) {
+            return None;
+        }
+        let (centre, radius) = (self.base() + self.axis() * 0.5, 0.5 * self.axis().length() + self.radius());
+        let method = method.required(from, centre, radius, SurfaceDensity::Area);
+        if method == SurfaceDensity::Area || sides == Sides::Both || !(outward || inside) {
+            return Some(View::Area(AreaView::new(*self, from)));
+        }
+        CylinderSlab::new(self, from, !outward).map(View::SolidAngle)
     }
 }

@@ -15,6 +15,8 @@ mod point;
 mod polygon;
 mod projected_view;
 mod rectangle;
+#[cfg(test)]
+mod round;
 mod sphere;
 mod spot;
 mod triangle;

@@ -1,6 +1,7 @@
 //! Regions of directions above a horizon, and sampling over them in proportion to the cosine.
 
 mod arc;
+mod cap;
 mod chains;
 mod chart;
 mod clip;
@@ -12,5 +13,6 @@ mod sector;
 #[cfg(test)]
 mod tests;
 
+pub use cap::ProjectedCap;
 pub use chart::Chart;
 pub use polygon::{PolygonSample, ProjectedPolygon};

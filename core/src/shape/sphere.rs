@@ -55,6 +55,16 @@ impl Sphere {
         Self { inward: !self.inward, ..self }
     }
 
+    /// How far outside the surface a point is (m); negative inside. `(d² − r²) / (d + r)` with the
+    /// squares summed exactly, so that a millionth of the radius is still known.
+    #[inline]
+    #[must_use]
+    pub fn clearance(&self, point: Vec3) -> f32 {
+        let v = self.centre - point;
+        let power = num::sum_of_products([v.x, v.y, v.z, self.radius], [v.x, v.y, v.z, -self.radius]);
+        power / (v.length() + self.radius)
+    }
+
     /// The surface point in the outward unit direction `n` from the centre.
     #[inline]
     #[must_use]

@@ -3,8 +3,10 @@
 #[cfg(test)]
 mod flat_tests;
 mod rectangle;
+mod slab;
 mod triangle;
 
 pub use rectangle::{RectanglePlace, SphericalRectangle};
+pub(crate) use slab::{FromEnd, Span, Sweep};
 pub(crate) use triangle::triangle_solid_angle;
 pub use triangle::{SphericalTriangle, TrianglePlace};

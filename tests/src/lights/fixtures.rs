@@ -96,10 +96,44 @@ pub fn disk_two_sided() -> Area<Disk> {
     subject
 }
 
+/// A disk that is a fiftieth of its radius away, its foot inside.
+#[must_use]
+pub fn disk_near() -> Area<Disk> {
+    area(disk_facing_down(1.0, 1.0, 0.02, Vec3::new(0.3, -0.4, 0.0)), floor())
+}
+
+/// An ellipse a thousand radii away, seen from 40° off its normal.
+#[must_use]
+pub fn disk_far_away() -> Area<Disk> {
+    from_afar(disk_facing_down(1.0, 0.7, 0.0, Vec3::ZERO), 1e3)
+}
+
+/// Seen edge-on, almost: 3° above the plane of the disk.
+#[must_use]
+pub fn disk_grazing() -> Area<Disk> {
+    let from = receiver(Vec3::new(-2.0, 0.3, 0.0), Vec3::new(1.0, 0.0, 0.3));
+    area(disk_facing_down(0.5, 0.5, 0.1, Vec3::ZERO), from)
+}
+
+/// An ellipse four times as long as wide, aslant.
+#[must_use]
+pub fn disk_aslant() -> Area<Disk> {
+    let (u, v) = (Vec3::new(0.6, 0.8, 0.0), Vec3::new(-0.8, 0.6, 0.0));
+    let disk = Disk::new(Vec3::new(0.3, 0.1, 1.0), v * 0.25, u).expect("a proper disk");
+    area(disk, floor())
+}
+
 /// A sphere of `radius` whose centre is `distance` away from the receiver, up and aside.
 #[must_use]
 pub fn sphere(radius: f32, distance: f32) -> Area<Sphere> {
     let centre = Vec3::new(0.48, -0.36, 0.8) * distance;
+    area(Sphere::new(centre, radius).expect("a proper sphere"), floor())
+}
+
+/// A sphere whose centre is seen at an elevation of sine `c`: the horizon may cut it.
+#[must_use]
+pub fn sphere_at_the_horizon(radius: f32, distance: f32, c: f32) -> Area<Sphere> {
+    let centre = Vec3::new(0.8 * (1.0 - c * c).sqrt(), 0.6 * (1.0 - c * c).sqrt(), c) * distance;
     area(Sphere::new(centre, radius).expect("a proper sphere"), floor())
 }
 
@@ -203,6 +237,21 @@ pub fn polygon_two_sided() -> Area<Polygon> {
 pub fn cylinder_beside() -> Area<Cylinder> {
     let tube = Cylinder::new(Vec3::new(1.0, 0.4, -0.3), Vec3::new(0.1, 0.2, 1.5), 0.3);
     area(tube.expect("a proper cylinder"), receiver(Vec3::ZERO, Vec3::X))
+}
+
+/// A tube whose wall is a tenth of its radius away.
+#[must_use]
+pub fn cylinder_near() -> Area<Cylinder> {
+    let tube = Cylinder::new(Vec3::new(1.1, 0.0, -0.7), Vec3::Z * 2.0, 1.0);
+    area(tube.expect("a proper cylinder"), receiver(Vec3::ZERO, Vec3::X))
+}
+
+/// A tube a hundred lengths away.
+#[must_use]
+pub fn cylinder_far_away() -> Area<Cylinder> {
+    let tube = Cylinder::new(Vec3::ZERO, Vec3::new(0.1, 0.2, 1.0), 0.1);
+    let from = receiver(Vec3::new(60.0, 64.0, -48.0), Vec3::new(-0.6, -0.64, 0.48));
+    area(tube.expect("a proper cylinder"), from)
 }
 
 /// An inward tube around the receiver.

@@ -86,6 +86,14 @@ impl<S: Specimen> Area<S> {
         Self { method, ..self }
     }
 
+    /// The same over projected solid angle, where the density goes to 0 at the horizon.
+    #[must_use]
+    pub fn projected(self) -> Self {
+        let from = &self.from;
+        let measure = self.light.shape().irradiance(from.point, from.normal);
+        Self { method: SurfaceDensity::Projected, measure, projected: true, ..self }
+    }
+
     /// The same emitting from both sides.
     #[must_use]
     pub fn two_sided(self) -> Self {

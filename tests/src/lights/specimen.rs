@@ -29,6 +29,11 @@ pub trait Specimen: SampledShape + std::fmt::Debug {
     fn solid_angle(&self, from: Vec3) -> f64 {
         self.patch().solid_angle(from.as_dvec3())
     }
+
+    /// Irradiance from the front.
+    fn irradiance(&self, from: Vec3, normal: Vec3) -> f64 {
+        self.patch().irradiance(from.as_dvec3(), normal.as_dvec3())
+    }
 }
 
 impl Specimen for Rectangle {
@@ -171,6 +176,16 @@ impl Specimen for Sphere {
         match (s < 1.0, self.is_inward()) {
             (true, false) => oracle::sphere_solid_angle(s),
             (false, true) => 4.0 * std::f64::consts::PI,
+            _ => 0.0,
+        }
+    }
+
+    fn irradiance(&self, from: Vec3, normal: Vec3) -> f64 {
+        let v = (self.centre() - from).as_dvec3();
+        let s = f64::from(self.radius()) / v.length();
+        match (s < 1.0, self.is_inward()) {
+            (true, false) => oracle::sphere(s.asin(), normal.as_dvec3().dot(v) / v.length()),
+            (false, true) => std::f64::consts::PI,
             _ => 0.0,
         }
     }

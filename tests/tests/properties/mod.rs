@@ -23,6 +23,10 @@ use proptest::test_runner::{FileFailurePersistence, RngSeed};
 /// Cases of each property.
 const CASES: u32 = 300_000;
 
+/// Probability that two directions may enclose and still count as the same: the last step of a uniform
+/// moves the end of a round light by the root of a rounding.
+const SLIVER: f32 = 1e-6;
+
 fn config() -> ProptestConfig {
     const KEPT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/proptest-regressions/properties.txt");
     let failure_persistence = Some(Box::new(FileFailurePersistence::Direct(KEPT)) as Box<_>);
@@ -127,10 +131,11 @@ fn is_edge_on<S: Specimen>(shape: &S, case: &Case) -> bool {
 
 /// The uniforms come back, as well as the drawn point says where it is: to the rounding of its
 /// coordinates in extents of the light. Where the map from uniforms to points is flatter than that
-/// (a needle, a seam, a light that fills the hemisphere), they are others that draw the same point or the
-/// same direction, to that rounding.
+/// (a needle, a seam, the end of an ellipse), they are others that draw the same point to that
+/// rounding, or a direction so near that a square between the two holds at most a [`SLIVER`]
+/// of the probability.
 fn inverse<S: Specimen>(light: &AreaLight<S>, case: &Case) -> Verdict {
-    let Some((_, _, drawn)) = draw(light, case)? else { return Ok(()) };
+    let Some((_, pdf, drawn)) = draw(light, case)? else { return Ok(()) };
     let view = light.view(&case.from, case.method).expect("what was sampled");
     let Some(back) = view.invert(&drawn.at, drawn.wi) else {
         ensure!(is_edge_on(light.shape(), case), "{drawn:?} is never drawn");
@@ -145,7 +150,7 @@ fn inverse<S: Specimen>(light: &AreaLight<S>, case: &Case) -> Verdict {
     let again = view.sample(back);
     let same = again.is_some_and(|again| {
         let (beside, turned) = (again.at.point.distance(drawn.at.point), (again.wi - drawn.wi).length());
-        beside <= rounding || turned <= 256.0 * UNIT_ROUND_OFF
+        beside <= rounding || turned <= 64.0 * UNIT_ROUND_OFF || pdf * turned * turned <= SLIVER
     });
     ensure!(same, "{:?} became {back:?}: {again:?} instead of {drawn:?}", case.u);
     Ok(())
@@ -193,9 +198,12 @@ fn scaling<S: Specimen>(shape: S, case: &Case, k: f32) -> Verdict {
     let (one, other) = (light(shape, case), light(shape.scaled(k), &scaled));
     let (a, b) = (draw(&one, case)?, draw(&other, &scaled)?);
     let edge_on = is_edge_on(&shape, case);
-    ensure!(a.is_some() == b.is_some() || edge_on, "{a:?}, times {k} {b:?}");
+    // The rim of a round light is as well known as the root of a rounding.
+    let rim = a.or(b).is_some_and(|(a, _, drawn)| drawn.at.normal.dot(a.wi).abs() < 1e-3);
+    ensure!(a.is_some() == b.is_some() || edge_on || rim, "{a:?}, times {k} {b:?}");
     if let Some(((a, pdf_a, drawn), (b, pdf_b, _))) = a.zip(b) {
-        ensure!((a.wi - b.wi).length() < 1e-6, "toward {}, times {k} {}", a.wi, b.wi);
+        let turned = (a.wi - b.wi).length();
+        ensure!(turned < 1e-6 || pdf_a * turned * turned <= SLIVER, "toward {}, times {k} {}", a.wi, b.wi);
         let tolerance = 1e-5 + 16.0 * UNIT_ROUND_OFF / drawn.at.normal.dot(a.wi).abs();
         ensure!((pdf_a / pdf_b - 1.0).abs() < tolerance, "density {pdf_a}, times {k} {pdf_b}");
     }

@@ -1,10 +1,9 @@
-//! Sampling a sphere: its whole surface, or the cone that it fills.
+//! The cone that a sphere fills, by solid angle and by projected solid angle.
 
-use super::{
-    AreaView, NoView, Receiver, SampledShape, Sides, SurfaceDensity, SurfaceSample, SurfaceView, View,
-};
 use crate::geom::{Frame, unit};
+use crate::light::{Receiver, SurfaceSample, SurfaceView};
 use crate::num;
+use crate::projected::ProjectedCap;
 use crate::shape::{Sphere, SurfacePoint};
 use crate::warp;
 use glam::Vec3;
@@ -17,6 +16,8 @@ pub struct SphereCone {
     frame: Frame,
     /// Distance to the centre (m).
     distance: f32,
+    /// Distance to the surface (m).
+    gap: f32,
     /// `sin² θ_max`.
     sin2_max: f32,
     /// `1 − cos θ_max`.
@@ -24,23 +25,23 @@ pub struct SphereCone {
 }
 
 impl SphereCone {
-    /// `None` from inside, and from the surface as far as rounding places its points: one of the
-    /// inner wall must not take itself for an outer one.
+    /// * `gap` – how far outside the receiver is (m), above 0
     #[inline]
-    fn new(sphere: &Sphere, from: Vec3) -> Option<Self> {
-        let v = sphere.centre() - from;
-        let axis = unit(v)?;
-        let distance = v.dot(axis);
-        let rounding = num::gamma(16) * (sphere.centre().abs().max_element() + sphere.radius());
-        if distance <= sphere.radius() + rounding {
-            return None;
-        }
+    pub(super) fn new(sphere: &Sphere, from: &Receiver, gap: f32) -> Option<Self> {
+        let axis = unit(sphere.centre() - from.point)?;
+        Some(Self::with_frame(sphere, Frame::from_normal(axis), gap))
+    }
+
+    /// * `frame` – whose third axis leads to the centre
+    #[inline]
+    fn with_frame(sphere: &Sphere, frame: Frame, gap: f32) -> Self {
+        let distance = sphere.radius() + gap;
         let sin_max = sphere.radius() / distance;
+        let cos_max = num::sqrt(gap / distance) * num::sqrt((gap + 2.0 * sphere.radius()) / distance);
         let sin2_max = sin_max * sin_max;
         // 1 − cos θ_max = s² / (1 + √(1 − s²)): no cancellation for any size.
-        let one_minus_cos_max = sin2_max / (1.0 + num::sqrt(1.0 - sin2_max));
-        let frame = Frame::from_normal(axis);
-        Some(Self { sphere: *sphere, frame, distance, sin2_max, one_minus_cos_max })
+        let one_minus_cos_max = sin2_max / (1.0 + cos_max);
+        Self { sphere: *sphere, frame, distance, gap, sin2_max, one_minus_cos_max }
     }
 
     /// Outward normal of the sphere where the local direction `d` first meets it.
@@ -65,9 +66,9 @@ impl SphereCone {
         let sin2 = d.x * d.x + d.y * d.y;
         let radius = self.sphere.radius();
         let half_chord = radius * num::sqrt(1.0 - sin2 / self.sin2_max);
-        let (gap, far) = (self.distance - radius, self.distance * d.z + half_chord);
+        let far = (self.distance * d.z + half_chord).max(f32::MIN_POSITIVE);
         // Product of both distances along a ray: the power of the point, (d − r)(d + r).
-        gap * ((self.distance + radius) / far)
+        self.gap * ((self.distance + radius) / far)
     }
 
     /// The sample in the local direction `d` of the cone.
@@ -75,6 +76,9 @@ impl SphereCone {
     fn toward(&self, d: Vec3) -> Option<SurfaceSample> {
         // Not from the difference of the points, which cancels for a distant sphere.
         let distance = self.near_distance(d);
+        if !(distance > 0.0 && distance < f32::INFINITY) {
+            return None;
+        }
         let n = unit(self.normal_at(d, distance / self.sphere.radius()))?;
         Some(SurfaceSample { at: self.sphere.point(n), wi: self.frame.to_world(d), distance })
     }
@@ -98,34 +102,41 @@ impl SurfaceView for SphereCone {
     }
 }
 
-impl SampledShape for Sphere {
-    type View = View<Self, SphereCone, NoView>;
+/// The part of that cone above the receiver's horizon: uniform over projected solid angle,
+/// `cos θ / E` (sr⁻¹).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SphereCap {
+    cone: SphereCone,
+    cap: ProjectedCap,
+    normal: Vec3,
+}
 
-    /// Density `1 / (4π r²)` (m⁻²): half of the points are on the far side.
+impl SphereCap {
+    /// `None` below the horizon.
+    ///
+    /// * `gap` – how far outside the receiver is (m), above 0
     #[inline]
-    fn sample_area(&self, u: [f32; 2]) -> SurfacePoint {
-        self.point(warp::uniform_sphere(u))
+    pub(super) fn new(sphere: &Sphere, from: &Receiver, gap: f32) -> Option<Self> {
+        let to_centre = sphere.centre() - from.point;
+        let (cap, frame) = ProjectedCap::of_sphere(from, to_centre, sphere.radius(), gap)?;
+        Some(Self { cone: SphereCone::with_frame(sphere, frame, gap), cap, normal: from.normal })
+    }
+}
+
+impl SurfaceView for SphereCap {
+    #[inline]
+    fn sample(&self, u: [f32; 2]) -> Option<SurfaceSample> {
+        self.cone.toward(self.cap.sample(u))
     }
 
-    fn sample_area_inverse(&self, point: Vec3) -> [f32; 2] {
-        warp::uniform_sphere_inverse(unit(point - self.centre()).unwrap_or(Vec3::Z))
+    #[inline]
+    fn pdf_solid_angle(&self, _: &SurfacePoint, wi: Vec3, _: f32) -> Option<f32> {
+        let pdf = self.normal.dot(wi) / self.cap.area();
+        (pdf > 0.0 && pdf.is_finite()).then_some(pdf)
     }
 
-    /// From outside, the far side is hidden.
-    #[inline]
-    fn hides(&self, from: Vec3, at: &SurfacePoint) -> bool {
-        let outward = if self.is_inward() { -at.normal } else { at.normal };
-        outward.dot(from - at.point) < 0.0
-            && self.centre().distance_squared(from) > self.radius() * self.radius()
-    }
-
-    /// From inside and from the surface itself, by area.
-    #[inline]
-    fn view(&self, from: &Receiver, method: SurfaceDensity, _: Sides) -> Option<Self::View> {
-        let area = || View::Area(AreaView::new(*self, from));
-        match method {
-            SurfaceDensity::Area => Some(area()),
-            _ => Some(SphereCone::new(self, from.point).map_or_else(area, View::SolidAngle)),
-        }
+    fn invert(&self, _: &SurfacePoint, wi: Vec3) -> Option<[f32; 2]> {
+        let above = self.normal.dot(wi) > 0.0;
+        above.then(|| self.cap.invert(self.cone.frame.to_local(wi)))
     }
 }

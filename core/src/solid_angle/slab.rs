@@ -1,0 +1,273 @@
+//! Directions about an axis through the receiver: a plane's angle `α` around the axis, and the sine
+//! `h` of the elevation out of the plane across it. Solid angle is `dα dh`.
+//!
+//! A light that is bounded by two curves `h₀(α)` and `h₁(α)` is sampled uniformly in `h`. How `α` is
+//! distributed is the choice of a small table; the density is exact whatever the table holds.
+
+use crate::num;
+
+/// Intervals of a sweep's table. With 8, the relative variance of the solid angle is 1e-4 for a
+/// disk five radii away, 3e-3 for one that is almost touched, 1e-3 for a tube alongside; 0.4 for a
+/// tube that is seen along its wall, from a fiftieth of its radius off it and half a radius before it.
+const INTERVALS: usize = 8;
+
+/// A part of a line, parallel to the axis, as seen from the receiver: one value of `α`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Span {
+    /// Where it begins along the axis, from the receiver's foot (m).
+    pub(crate) start: f32,
+    /// Its length (m).
+    pub(crate) length: f32,
+    /// Distance of the line from the receiver (m), above 0.
+    pub(crate) away: f32,
+}
+
+impl Span {
+    /// The same seen from the other side, when it lies at negative coordinates: so that of a span on
+    /// one side of the foot, the near end comes first.
+    #[inline]
+    fn turned(&self) -> (Self, bool) {
+        let end = self.start + self.length;
+        let turn = end < 0.0;
+        (if turn { Self { start: -end, ..*self } } else { *self }, turn)
+    }
+
+    /// `h₁ − h₀` of the first `part` (m) of a span.
+    ///
+    /// Derived: with `cᵢ` the cosines of the elevations,
+    /// `sin ε₁ − sin ε₀ = sin(ε₁ − ε₀) (c₀ + c₁) / (1 + cos(ε₁ − ε₀))`; nothing cancels on one side
+    /// of the foot.
+    #[inline]
+    fn sines(&self, part: f32) -> f32 {
+        let (x0, x1, t) = (self.start, self.start + part, self.away);
+        let (r0, r1) = (num::sqrt(x0 * x0 + t * t), num::sqrt(x1 * x1 + t * t));
+        if x0 < 0.0 {
+            return x1 / r1 - x0 / r0;
+        }
+        (t / r0) * (t / r1) * part * ((r0 + r1) / (r0 * r1 + t * t + x0 * x1))
+    }
+
+    /// Extent in `h`.
+    #[inline]
+    pub(crate) fn extent(&self) -> f32 {
+        let (span, _) = self.turned();
+        span.sines(span.length)
+    }
+
+    /// The point with the share `u` of the extent before it: its offset from the foot (m), and the
+    /// fraction of the span before it.
+    #[inline]
+    pub(crate) fn at(&self, u: f32) -> (f32, f32) {
+        let (span, turn) = self.turned();
+        let delta = span.sines(span.length) * if turn { 1.0 - u } else { u };
+        let (x0, t) = (span.start, span.away);
+        let r0 = num::sqrt(x0 * x0 + t * t);
+        let (c0, h) = (t / r0, x0 / r0 + delta);
+        let c = num::sqrt((1.0 - h) * (1.0 + h)).max(f32::MIN_POSITIVE);
+        let before = if x0 < 0.0 {
+            // The foot is within: no digit is lost from it.
+            t * (h / c) - x0
+        } else {
+            // x − x₀ = t sin(ε − ε₀) / (c₀ c)
+            t * (delta / c) * ((1.0 + c * c0 + h * (x0 / r0)) / ((c + c0) * c0))
+        };
+        let before = before.clamp(0.0, span.length);
+        let (x, fraction) = (x0 + before, before / span.length);
+        // Where the foot is within, close to it.
+        let x = if x0 < 0.0 { (t * (h / c)).clamp(x0, x0 + span.length) } else { x };
+        if turn { (-x, 1.0 - fraction) } else { (x, fraction) }
+    }
+
+    /// Inverse of [`Span::at`]: the share of the extent before a fraction of the span.
+    pub(crate) fn share(&self, fraction: f32) -> f32 {
+        let (span, turn) = self.turned();
+        let part = span.length * if turn { 1.0 - fraction } else { fraction };
+        let share = span.sines(part) / span.sines(span.length);
+        if turn { 1.0 - share } else { share }
+    }
+}
+
+/// A density over the angles of a sweep, `[middle − half, middle + half]`.
+///
+/// It is piecewise linear, but for the first and the last interval: there it is constant, for a
+/// light whose extent ends abruptly, falls to 0 as a root, for one with a round edge, or blends the
+/// two; a light that is seen more toward an end has a line there too.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Sweep {
+    middle: f32,
+    half: f32,
+    /// Density over an interval at its ends, as a share of the whole.
+    density: [f32; INTERVALS + 1],
+    /// How the density ends.
+    ends: [End; 2],
+}
+
+impl Sweep {
+    /// What is there before anything is tabulated.
+    pub(crate) const EMPTY: Self =
+        Self { middle: 0.0, half: 0.0, density: [0.0; INTERVALS + 1], ends: [End { round: 0.0 }; 2] };
+
+    /// Tabulates what is seen between two angles (rad); `None` when that is nothing.
+    ///
+    /// * `extent` – the light's extent in `h` at an angle
+    pub(crate) fn new(low: f32, high: f32, extent: impl Fn(f32) -> f32) -> Option<Self> {
+        let mut sweep = Self { middle: 0.5 * (low + high), half: 0.5 * (high - low), ..Self::EMPTY };
+        let seen = |place: f32| extent(sweep.middle + sweep.half * (STEP * place - 1.0));
+        let mut density = [0.0; INTERVALS + 1];
+        for (i, d) in density.iter_mut().enumerate().take(INTERVALS).skip(1) {
+            *d = seen(i as f32);
+        }
+        let halfway = [seen(0.5), seen(INTERVALS as f32 - 0.5)];
+        let next = [density[1], density[INTERVALS - 1]];
+        let ends = [End::new(halfway[0] / next[0]), End::new(halfway[1] / next[1])];
+        // One that rises to an end goes on as a line.
+        let rising = |i: usize| (2.0 * (halfway[i] - next[i])).max(0.0);
+        let line = |i: usize| if rising(i) > 0.0 { next[i] + rising(i) } else { 0.0 };
+        (density[0], density[INTERVALS]) = (line(0), line(1));
+        (sweep.density, sweep.ends) = (density, ends);
+        let scale = 1.0 / (0..INTERVALS).map(|i| sweep.mass(i)).sum::<f32>();
+        if !(sweep.half > 0.0 && scale > 0.0 && scale < f32::INFINITY) {
+            return None;
+        }
+        sweep.density = density.map(|d| d * scale);
+        Some(sweep)
+    }
+
+    /// Half of the sweep (rad).
+    #[inline]
+    pub(crate) fn half(&self) -> f32 {
+        self.half
+    }
+
+    /// How the density ends in an interval at an end; `None` elsewhere, and where it rises as a line.
+    #[inline]
+    fn end(&self, i: usize) -> Option<End> {
+        match i {
+            0 if self.density[0] == 0.0 => Some(self.ends[0]),
+            _ if i == INTERVALS - 1 && self.density[INTERVALS] == 0.0 => Some(self.ends[1]),
+            _ => None,
+        }
+    }
+
+    /// Share of an interval.
+    #[inline]
+    fn mass(&self, i: usize) -> f32 {
+        let sum = self.density[i] + self.density[i + 1];
+        self.end(i).map_or(0.5 * sum, |end| sum / end.density(1.0))
+    }
+
+    /// Draws an angle (rad).
+    #[inline]
+    pub(crate) fn sample(&self, u: f32) -> f32 {
+        let (mut left, mut i) = (u, 0);
+        while i < INTERVALS - 1 && left >= self.mass(i) {
+            left -= self.mass(i);
+            i += 1;
+        }
+        let mass = self.mass(i);
+        let t = match self.end(i) {
+            Some(end) if i == 0 => end.sample((left / mass).min(1.0)),
+            Some(end) => 1.0 - end.sample((1.0 - left / mass).max(0.0)),
+            None => {
+                // Root of a t + (b − a) t² / 2 = left, in the form that does not cancel.
+                let (a, b) = (self.density[i], self.density[i + 1]);
+                let root = a + num::sqrt(a * a + 2.0 * (b - a) * left);
+                if root > 0.0 { (2.0 * left / root).min(1.0) } else { 0.0 }
+            }
+        };
+        self.middle + self.half * (STEP * (i as f32 + t) - 1.0)
+    }
+
+    /// Where an angle is in the table: the interval, and the fraction of it before and after the
+    /// angle.
+    #[inline]
+    fn find(&self, from: FromEnd) -> (usize, [f32; 2]) {
+        let rest = (from.angle / self.half).clamp(0.0, 2.0);
+        let (below, rest) = if rest > 1.0 { (!from.low, 2.0 - rest) } else { (from.low, rest) };
+        let place = rest / STEP;
+        let end = (place as usize).min(INTERVALS / 2 - 1);
+        let t = place - end as f32;
+        if below { (end, [t, 1.0 - t]) } else { (INTERVALS - 1 - end, [1.0 - t, t]) }
+    }
+
+    /// Density of an angle (rad⁻¹).
+    #[inline]
+    pub(crate) fn pdf(&self, angle: FromEnd) -> f32 {
+        let (i, [before, after]) = self.find(angle);
+        let density = match self.end(i) {
+            Some(end) => self.mass(i) * end.density(if i == 0 { before } else { after }),
+            None => self.density[i] * after + self.density[i + 1] * before,
+        };
+        density / (STEP * self.half)
+    }
+
+    /// Inverse of [`Sweep::sample`].
+    pub(crate) fn share(&self, angle: FromEnd) -> f32 {
+        let (i, [before, after]) = self.find(angle);
+        let below: f32 = (0..i).map(|j| self.mass(j)).sum();
+        let (a, b) = (self.density[i], self.density[i + 1]);
+        below
+            + match self.end(i) {
+                Some(end) if i == 0 => self.mass(i) * end.share(before),
+                Some(end) => self.mass(i) * (1.0 - end.share(after)),
+                None => before * (a + 0.5 * (b - a) * before),
+            }
+    }
+}
+
+/// A density over `t` in `[0, 1]`: the blend of a constant and of the root `3/2 √t`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct End {
+    /// Share of the root.
+    round: f32,
+}
+
+impl End {
+    /// * `ratio` – of the value halfway to that at 1: 1 for an abrupt end, `√(15/28)` for a circle's
+    ///   chords in the last eighth of its width
+    ///
+    /// From halfway on it is the root alone: at a rim, what remains of the constant would let the
+    /// light's density grow beyond all bounds.
+    fn new(ratio: f32) -> Self {
+        let circle = num::sqrt(15.0 / 28.0);
+        Self { round: (2.0 * (1.0 - ratio) / (1.0 - circle)).clamp(0.0, 1.0) }
+    }
+
+    #[inline]
+    fn density(&self, t: f32) -> f32 {
+        1.0 - self.round + self.round * 1.5 * num::sqrt(t)
+    }
+
+    /// What is below `t`.
+    #[inline]
+    fn share(&self, t: f32) -> f32 {
+        t * (1.0 - self.round + self.round * num::sqrt(t))
+    }
+
+    /// `t` with the share `u` below: Newton's method for `√t`, from above, where the share is convex.
+    #[inline]
+    fn sample(&self, u: f32) -> f32 {
+        let (a, b) = (1.0 - self.round, self.round);
+        let mut z = 1.0_f32;
+        for _ in 0..24 {
+            let next = z - (z * z * (a + b * z) - u) / (z * (2.0 * a + 3.0 * b * z));
+            if !(next < z && next > 0.0) {
+                break;
+            }
+            z = next;
+        }
+        if u > 0.0 { z * z } else { 0.0 }
+    }
+}
+
+/// An angle of a sweep, counted from one of its ends (rad): where the light's edge is round, the
+/// density is a quotient of what vanishes there.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct FromEnd {
+    pub(crate) angle: f32,
+    /// True when it is counted from the low end.
+    pub(crate) low: bool,
+}
+
+/// Width of an interval, for a sweep of 2.
+const STEP: f32 = 2.0 / INTERVALS as f32;
