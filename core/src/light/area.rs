@@ -134,7 +134,8 @@ impl<S: SampledShape> Emitter for AreaLight<S> {
     /// `E = L` times the projected solid angle.
     #[inline]
     fn unshadowed_irradiance(&self, from: &Receiver) -> Option<Rgb> {
-        Some(self.radiance * self.shape.projected_solid_angle(from, self.sides)?)
+        let irradiance = self.radiance * self.shape.projected_solid_angle(from, self.sides)?;
+        irradiance.is_finite().then_some(irradiance)
     }
 
     /// `π A L`, twice when both sides emit.

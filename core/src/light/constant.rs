@@ -52,7 +52,7 @@ impl Emitter for Constant {
 
     /// `π L`.
     fn unshadowed_irradiance(&self, _from: &Receiver) -> Option<Rgb> {
-        Some(self.radiance * PI)
+        Some(self.radiance * PI).filter(|irradiance| irradiance.is_finite())
     }
 
     fn is_environment(&self) -> bool {

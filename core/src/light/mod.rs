@@ -113,7 +113,7 @@ pub trait Emitter: Copy {
     }
 
     /// Irradiance at `from` when nothing is in the way, in closed form (W m⁻²); `None` for a light
-    /// that has none.
+    /// that has none, and where `f32` cannot hold it.
     fn unshadowed_irradiance(&self, from: &Receiver) -> Option<Rgb> {
         let _ = from;
         None

@@ -97,8 +97,8 @@ impl SurfaceView for SphereCone {
     }
 
     fn invert(&self, _: &SurfacePoint, wi: Vec3) -> Option<[f32; 2]> {
-        let [s, t] = warp::cone_inverse(self.frame.to_local(wi), self.one_minus_cos_max);
-        Some([s.min(num::ONE_MINUS_EPSILON), t])
+        let u = warp::cone_inverse(self.frame.to_local(wi), self.one_minus_cos_max);
+        u.iter().all(|x| x.is_finite()).then(|| u.map(num::clamp_unit))
     }
 }
 
