@@ -1,6 +1,6 @@
 //! Sampling an open cylinder.
 
-use super::{AreaView, NoView, Receiver, SampledShape, Sides, SurfaceDensity, View};
+use super::{AreaView, NoView, Receiver, SampledShape, Sides, SurfaceDensity, UseView, View};
 use crate::geom::Frame;
 use crate::num::{self, TAU};
 use crate::shape::{Cylinder, SurfacePoint};
@@ -24,8 +24,14 @@ impl SampledShape for Cylinder {
         [h, if turn < 0.0 { turn + 1.0 } else { turn }]
     }
 
-    #[inline]
-    fn view(&self, from: &Receiver, _: SurfaceDensity, _: Sides) -> Option<Self::View> {
-        Some(View::Area(AreaView::new(*self, from)))
+    #[inline(always)]
+    fn with_view<U: UseView<Self::View>>(
+        &self,
+        from: &Receiver,
+        _: SurfaceDensity,
+        _: Sides,
+        then: U,
+    ) -> Option<U::Output> {
+        then.with(AreaView::new(*self, from), View::Area)
     }
 }

@@ -1,6 +1,6 @@
 //! Sampling a disk or an ellipse.
 
-use super::{AreaView, NoView, Receiver, SampledShape, Sides, SurfaceDensity, View};
+use super::{AreaView, NoView, Receiver, SampledShape, Sides, SurfaceDensity, UseView, View};
 use crate::shape::{Disk, SurfacePoint};
 use crate::warp;
 use glam::{Vec2, Vec3};
@@ -20,8 +20,14 @@ impl SampledShape for Disk {
         warp::disk_to_square(Vec2::new(a, b))
     }
 
-    #[inline]
-    fn view(&self, from: &Receiver, _: SurfaceDensity, _: Sides) -> Option<Self::View> {
-        Some(View::Area(AreaView::new(*self, from)))
+    #[inline(always)]
+    fn with_view<U: UseView<Self::View>>(
+        &self,
+        from: &Receiver,
+        _: SurfaceDensity,
+        _: Sides,
+        then: U,
+    ) -> Option<U::Output> {
+        then.with(AreaView::new(*self, from), View::Area)
     }
 }

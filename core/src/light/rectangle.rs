@@ -2,7 +2,7 @@
 
 use super::{
     AreaView, FlatShape, ProjectedView, Receiver, SampledShape, Sides, SurfaceDensity, SurfaceSample,
-    SurfaceView, View, faces, flat_projected_solid_angle,
+    SurfaceView, UseView, View, faces, flat_projected_solid_angle,
 };
 use crate::geom::unit;
 use crate::num::ONE_MINUS_EPSILON;
@@ -25,19 +25,25 @@ impl SampledShape for Rectangle {
         [a, b].map(|x| (0.5 * x + 0.5).clamp(0.0, ONE_MINUS_EPSILON))
     }
 
-    #[inline]
-    fn view(&self, from: &Receiver, method: SurfaceDensity, sides: Sides) -> Option<Self::View> {
+    #[inline(always)]
+    fn with_view<U: UseView<Self::View>>(
+        &self,
+        from: &Receiver,
+        method: SurfaceDensity,
+        sides: Sides,
+        then: U,
+    ) -> Option<U::Output> {
         let chart = self.chart(from.point);
         if !faces(&chart, sides) {
             return None;
         }
         let radius = (self.half_u() + self.half_v()).length();
         match method.required(from, self.centre(), radius, SurfaceDensity::Area) {
-            SurfaceDensity::Area => Some(View::Area(AreaView::new(*self, from))),
+            SurfaceDensity::Area => then.with(AreaView::new(*self, from), View::Area),
             SurfaceDensity::SolidAngle => {
-                RectangleSolidAngle::new(*self, Local::new(&chart)).map(View::SolidAngle)
+                then.with(RectangleSolidAngle::new(*self, Local::new(self, &chart))?, View::SolidAngle)
             }
-            _ => ProjectedView::new(self, from, &chart).map(View::Projected),
+            _ => then.with(ProjectedView::new(self, from, &chart)?, View::Projected),
         }
     }
 
@@ -80,18 +86,23 @@ struct Local {
 
 impl Local {
     /// In double precision: 1 mrad above the plane, or at 1e-6 sizes from it, single has two or
-    /// three digits of the height.
+    /// three digits of the height, and of a corner near the foot none.
     #[inline]
-    fn new(chart: &Chart) -> Self {
-        let (u_length, v_length) = (chart.u.length(), chart.v.length());
-        let (u, v) = (chart.u / u_length, chart.v / v_length);
-        let normal = u.cross(v);
-        let below = normal.dot(chart.origin);
-        let toward = if below < 0.0 { -normal } else { normal };
+    fn new(shape: &Rectangle, chart: &Chart) -> Self {
+        let Chart { origin, u, v } = *chart;
+        let (uu, vv) = (u.length_squared(), v.length_squared());
+        let (per_u, per_v) = (1.0 / libm::sqrt(uu), 1.0 / libm::sqrt(vv));
+        let normal = u.cross(v) * (per_u * per_v);
+        let below = normal.dot(origin);
+        let toward = normal.as_vec3();
         Self {
-            axes: [u.as_vec3(), v.as_vec3(), toward.as_vec3()],
-            corner: [(u.dot(chart.origin) - u_length) as f32, (v.dot(chart.origin) - v_length) as f32],
-            size: [(2.0 * u_length) as f32, (2.0 * v_length) as f32],
+            axes: [
+                shape.half_u() * per_u as f32,
+                shape.half_v() * per_v as f32,
+                if below < 0.0 { -toward } else { toward },
+            ],
+            corner: [((u.dot(origin) - uu) * per_u) as f32, ((v.dot(origin) - vv) * per_v) as f32],
+            size: [(2.0 * uu * per_u) as f32, (2.0 * vv * per_v) as f32],
             height: below.abs() as f32,
         }
     }

@@ -1,7 +1,8 @@
 //! Sampling a sphere: its whole surface, or the cone that it fills.
 
 use super::{
-    AreaView, NoView, Receiver, SampledShape, Sides, SurfaceDensity, SurfaceSample, SurfaceView, View,
+    AreaView, NoView, Receiver, SampledShape, Sides, SurfaceDensity, SurfaceSample, SurfaceView, UseView,
+    View,
 };
 use crate::geom::{Frame, unit};
 use crate::num;
@@ -120,12 +121,18 @@ impl SampledShape for Sphere {
     }
 
     /// From inside and from the surface itself, by area.
-    #[inline]
-    fn view(&self, from: &Receiver, method: SurfaceDensity, _: Sides) -> Option<Self::View> {
-        let area = || View::Area(AreaView::new(*self, from));
-        match method {
-            SurfaceDensity::Area => Some(area()),
-            _ => Some(SphereCone::new(self, from.point).map_or_else(area, View::SolidAngle)),
+    #[inline(always)]
+    fn with_view<U: UseView<Self::View>>(
+        &self,
+        from: &Receiver,
+        method: SurfaceDensity,
+        _: Sides,
+        then: U,
+    ) -> Option<U::Output> {
+        let cone = if method == SurfaceDensity::Area { None } else { SphereCone::new(self, from.point) };
+        match cone {
+            Some(cone) => then.with(cone, View::SolidAngle),
+            None => then.with(AreaView::new(*self, from), View::Area),
         }
     }
 }
