@@ -27,7 +27,7 @@ pub struct SphereCone {
 impl SphereCone {
     /// `None` from inside, and from the surface as far as rounding places its points: one of the
     /// inner wall must not take itself for an outer one.
-    #[inline]
+    #[inline(always)]
     fn new(sphere: &Sphere, from: Vec3) -> Option<Self> {
         let v = sphere.centre() - from;
         let axis = unit(v)?;
@@ -51,7 +51,7 @@ impl SphereCone {
     /// Source: Pharr, Jakob, Humphreys 2023, section 6.2.4: with `β` the angle at the centre,
     /// `cos β = sin² θ / s + cos θ √(1 − sin² θ / s²)`, s = sin θ_max. Differs: `sin β` is
     /// `sin θ reach` by the law of sines, which keeps its digits for a sphere that is almost touched.
-    #[inline]
+    #[inline(always)]
     fn normal_at(&self, d: Vec3, reach: f32) -> Vec3 {
         let sin2 = d.x * d.x + d.y * d.y;
         let sin_max = num::sqrt(self.sin2_max);
@@ -61,7 +61,7 @@ impl SphereCone {
 
     /// Distance to the sphere along the local direction `d`:
     /// `d cos θ − √(r² − d² sin² θ)`, rearranged to its product form.
-    #[inline]
+    #[inline(always)]
     fn near_distance(&self, d: Vec3) -> f32 {
         let sin2 = d.x * d.x + d.y * d.y;
         let radius = self.sphere.radius();
@@ -72,7 +72,7 @@ impl SphereCone {
     }
 
     /// The sample in the local direction `d` of the cone.
-    #[inline]
+    #[inline(always)]
     fn toward(&self, d: Vec3) -> Option<SurfaceSample> {
         // Not from the difference of the points, which cancels for a distant sphere.
         let distance = self.near_distance(d);
@@ -83,12 +83,12 @@ impl SphereCone {
 
 impl SurfaceView for SphereCone {
     /// Uniform in the cone, and the point where that direction first meets the sphere.
-    #[inline]
+    #[inline(always)]
     fn sample(&self, u: [f32; 2]) -> Option<SurfaceSample> {
         self.toward(warp::cone(u, self.one_minus_cos_max))
     }
 
-    #[inline]
+    #[inline(always)]
     fn pdf_solid_angle(&self, _: &SurfacePoint, _: Vec3, _: f32) -> Option<f32> {
         Some(warp::cone_pdf(self.one_minus_cos_max)).filter(|p| p.is_finite())
     }

@@ -82,20 +82,23 @@ pub struct TriangleSolidAngle {
 }
 
 impl TriangleSolidAngle {
-    #[inline]
+    #[inline(always)]
     fn new(shape: Triangle, from: Vec3) -> Option<Self> {
         Some(Self { shape, seen: SphericalTriangle::new(from, &shape.corners())? })
     }
 }
 
 impl SurfaceView for TriangleSolidAngle {
-    #[inline]
+    #[inline(always)]
     fn sample(&self, u: [f32; 2]) -> Option<SurfaceSample> {
         let TrianglePlace { barycentric: [b1, b2], direction: wi, distance } = self.seen.sample(u);
-        (distance > 0.0).then_some(SurfaceSample { at: self.shape.point(b1, b2), wi, distance })
+        if !(distance > 0.0) {
+            return None;
+        }
+        Some(SurfaceSample { at: self.shape.point(b1, b2), wi, distance })
     }
 
-    #[inline]
+    #[inline(always)]
     fn pdf_solid_angle(&self, _: &SurfacePoint, _: Vec3, _: f32) -> Option<f32> {
         Some(1.0 / self.seen.solid_angle())
     }
