@@ -73,7 +73,7 @@ pub fn triangle_to_square(b: [f32; 2]) -> [f32; 2] {
 pub fn uniform_sphere(u: [f32; 2]) -> Vec3 {
     // sin θ = 2 √(u (1 − u)) follows from cos θ = 1 − 2 u without cancellation.
     let sin_theta = 2.0 * num::sqrt(u[0] * (1.0 - u[0]));
-    let (sin, cos) = num::sin_cos(TAU * u[1]);
+    let (sin, cos) = num::sin_cos_turns(u[1]);
     Vec3::new(sin_theta * cos, sin_theta * sin, 1.0 - 2.0 * u[0])
 }
 
@@ -137,7 +137,7 @@ pub const UNIFORM_HEMISPHERE_PDF: f32 = 0.5 * FRAC_1_PI;
 pub fn cone(u: [f32; 2], one_minus_cos_max: f32) -> Vec3 {
     let x = u[0] * one_minus_cos_max;
     let sin_theta = num::sqrt(x * (2.0 - x));
-    let (sin, cos) = num::sin_cos(TAU * u[1]);
+    let (sin, cos) = num::sin_cos_turns(u[1]);
     Vec3::new(sin_theta * cos, sin_theta * sin, 1.0 - x)
 }
 
@@ -163,7 +163,7 @@ pub fn cone_inverse(d: Vec3, one_minus_cos_max: f32) -> [f32; 2] {
 pub fn power_cosine(u: [f32; 2], exponent: f32) -> Vec3 {
     let x = -num::exp_m1(num::ln_1p(-u[0]) / (exponent + 1.0));
     let sin_theta = num::sqrt(x * (2.0 - x));
-    let (sin, cos) = num::sin_cos(TAU * u[1]);
+    let (sin, cos) = num::sin_cos_turns(u[1]);
     Vec3::new(sin_theta * cos, sin_theta * sin, 1.0 - x)
 }
 

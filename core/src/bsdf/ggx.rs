@@ -3,7 +3,7 @@
 use super::error::check_reflectance;
 use super::{Bsdf, BsdfError, BsdfSample};
 use crate::Rgb;
-use crate::num::{self, FRAC_1_PI, TAU};
+use crate::num::{self, FRAC_1_PI};
 use glam::Vec3;
 
 /// A rough conductor with GGX microfacets and a reflectance that does not depend on the angle
@@ -93,7 +93,7 @@ impl Bsdf for GgxConductor {
         // A point of the cap z > −std.z around the mirror of the flat surface.
         let z = (1.0 - u[0]) * (1.0 + std.z) - std.z;
         let sin = num::sqrt((1.0 - z) * (1.0 + z));
-        let (sin_phi, cos_phi) = num::sin_cos(TAU * u[1]);
+        let (sin_phi, cos_phi) = num::sin_cos_turns(u[1]);
         let cap = Vec3::new(sin * cos_phi, sin * sin_phi, z) + std;
         let h = crate::geom::unit(Vec3::new(a * cap.x, a * cap.y, cap.z))?;
         let wi = h * (2.0 * wo.dot(h)) - wo;

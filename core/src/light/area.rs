@@ -1,7 +1,8 @@
 //! Surfaces that emit: radiance, sides and the change of measure, once for every shape.
 
 use super::error::check_emission;
-use super::{Density, Emitter, LightError, LightSample, Receiver, SurfaceDensity, SurfaceView};
+use super::view::Keep;
+use super::{Density, Emitter, LightError, LightSample, Receiver, SurfaceDensity, SurfaceView, UseView};
 use crate::Rgb;
 use crate::num::PI;
 use crate::shape::{Shape, SurfacePoint};
@@ -30,9 +31,22 @@ pub trait SampledShape: Shape {
 
     /// The density over what `from` sees of the emitting sides; `None` when that is nothing.
     ///
+    #[inline]
+    fn view(&self, from: &Receiver, method: SurfaceDensity, sides: Sides) -> Option<Self::View> {
+        self.with_view(from, method, sides, Keep)
+    }
+
+    /// Hands the view of [`SampledShape::view`] to `then`; `None` when nothing is seen.
+    ///
     /// This is the only place that decides about a density. It depends on its arguments alone, so
     /// that sampled and queried directions have the same one.
-    fn view(&self, from: &Receiver, method: SurfaceDensity, sides: Sides) -> Option<Self::View>;
+    fn with_view<U: UseView<Self::View>>(
+        &self,
+        from: &Receiver,
+        method: SurfaceDensity,
+        sides: Sides,
+        then: U,
+    ) -> Option<U::Output>;
 
     /// True when the shape itself hides the surface point `at` from `from`. A shape whose closed form
     /// counts each direction once must know.
@@ -101,19 +115,7 @@ impl<S: SampledShape> AreaLight<S> {
 impl<S: SampledShape> Emitter for AreaLight<S> {
     #[inline]
     fn sample(&self, from: &Receiver, method: SurfaceDensity, u: [f32; 2]) -> Option<LightSample> {
-        let view = self.view(from, method)?;
-        let sample = view.sample(u)?;
-        let cos_light = self.cos_light(sample.at.normal, sample.wi);
-        if !(cos_light > 0.0) || (self.sides == Sides::Both && self.shape.hides(from.point, &sample.at)) {
-            return None;
-        }
-        let pdf = view.pdf_solid_angle(&sample.at, sample.wi, cos_light)?;
-        Some(LightSample {
-            wi: sample.wi,
-            distance: sample.distance,
-            incident: self.radiance,
-            density: Density::SolidAngle(pdf),
-        })
+        self.shape.with_view(from, method, self.sides, Draw { light: self, from, u })
     }
 
     #[inline]
@@ -122,8 +124,7 @@ impl<S: SampledShape> Emitter for AreaLight<S> {
         if !(cos_light > 0.0) {
             return 0.0;
         }
-        let pdf = |view: S::View| view.pdf_solid_angle(at, wi, cos_light);
-        self.view(from, method).and_then(pdf).unwrap_or(0.0)
+        self.shape.with_view(from, method, self.sides, Query { at, wi, cos_light }).unwrap_or(0.0)
     }
 
     #[inline]
@@ -142,5 +143,49 @@ impl<S: SampledShape> Emitter for AreaLight<S> {
     fn power(&self, _scene_radius: f32) -> f32 {
         let sides = if self.sides == Sides::Both { 2.0 } else { 1.0 };
         sides * PI * self.shape.area() * self.radiance.average()
+    }
+}
+
+/// Draws a sample.
+struct Draw<'a, S> {
+    light: &'a AreaLight<S>,
+    from: &'a Receiver,
+    u: [f32; 2],
+}
+
+impl<S: SampledShape> UseView<S::View> for Draw<'_, S> {
+    type Output = LightSample;
+
+    #[inline(always)]
+    fn with<V: SurfaceView>(self, view: V, _: impl FnOnce(V) -> S::View) -> Option<LightSample> {
+        let Self { light, from, u } = self;
+        let sample = view.sample(u)?;
+        let cos_light = light.cos_light(sample.at.normal, sample.wi);
+        if !(cos_light > 0.0) || (light.sides == Sides::Both && light.shape.hides(from.point, &sample.at)) {
+            return None;
+        }
+        let pdf = view.pdf_solid_angle(&sample.at, sample.wi, cos_light)?;
+        Some(LightSample {
+            wi: sample.wi,
+            distance: sample.distance,
+            incident: light.radiance,
+            density: Density::SolidAngle(pdf),
+        })
+    }
+}
+
+/// Asks for the density of a direction.
+struct Query<'a> {
+    at: &'a SurfacePoint,
+    wi: Vec3,
+    cos_light: f32,
+}
+
+impl<A> UseView<A> for Query<'_> {
+    type Output = f32;
+
+    #[inline(always)]
+    fn with<V: SurfaceView>(self, view: V, _: impl FnOnce(V) -> A) -> Option<f32> {
+        view.pdf_solid_angle(self.at, self.wi, self.cos_light)
     }
 }

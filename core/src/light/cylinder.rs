@@ -1,7 +1,8 @@
 //! Sampling an open cylinder.
 
 use super::{
-    AreaView, NoView, Receiver, SampledShape, Sides, SurfaceDensity, SurfaceSample, SurfaceView, View,
+    AreaView, NoView, Receiver, SampledShape, Sides, SurfaceDensity, SurfaceSample, SurfaceView, UseView,
+    View,
 };
 use crate::geom::{Frame, unit};
 use crate::num::{self, FRAC_PI_2, PI, TAU};
@@ -163,8 +164,14 @@ impl SampledShape for Cylinder {
     }
 
     /// By area where the inner wall is seen through an open end, and where both sides emit.
-    #[inline]
-    fn view(&self, from: &Receiver, method: SurfaceDensity, sides: Sides) -> Option<Self::View> {
+    #[inline(always)]
+    fn with_view<U: UseView<Self::View>>(
+        &self,
+        from: &Receiver,
+        method: SurfaceDensity,
+        sides: Sides,
+        then: U,
+    ) -> Option<U::Output> {
         let reach = self.base().abs().max_element() + self.axis().abs().max_element() + self.radius();
         let (gap, rounding) = (clearance(self, from.point), num::gamma(16) * reach);
         let (outward, inside) = (!self.is_inward(), gap < rounding);
@@ -174,8 +181,8 @@ impl SampledShape for Cylinder {
         let (centre, radius) = (self.base() + self.axis() * 0.5, 0.5 * self.axis().length() + self.radius());
         let method = method.required(from, centre, radius, SurfaceDensity::Area);
         if method == SurfaceDensity::Area || sides == Sides::Both || !(outward || inside) {
-            return Some(View::Area(AreaView::new(*self, from)));
+            return then.with(AreaView::new(*self, from), View::Area);
         }
-        CylinderSlab::new(self, from, !outward).map(View::SolidAngle)
+        then.with(CylinderSlab::new(self, from, !outward)?, View::SolidAngle)
     }
 }

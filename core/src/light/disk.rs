@@ -1,7 +1,8 @@
 //! Sampling a disk or an ellipse.
 
 use super::{
-    AreaView, NoView, Receiver, SampledShape, Sides, SurfaceDensity, SurfaceSample, SurfaceView, View,
+    AreaView, NoView, Receiver, SampledShape, Sides, SurfaceDensity, SurfaceSample, SurfaceView, UseView,
+    View,
 };
 use crate::geom::unit;
 use crate::irradiance;
@@ -188,15 +189,21 @@ impl SampledShape for Disk {
         u.map(|x| x.clamp(0.0, num::ONE_MINUS_EPSILON))
     }
 
-    #[inline]
-    fn view(&self, from: &Receiver, method: SurfaceDensity, sides: Sides) -> Option<Self::View> {
+    #[inline(always)]
+    fn with_view<U: UseView<Self::View>>(
+        &self,
+        from: &Receiver,
+        method: SurfaceDensity,
+        sides: Sides,
+        then: U,
+    ) -> Option<U::Output> {
         if !is_seen(self, from, sides) {
             return None;
         }
         let radius = num::sqrt(self.axis_u().length_squared().max(self.axis_v().length_squared()));
         match method.required(from, self.centre(), radius, SurfaceDensity::Area) {
-            SurfaceDensity::Area => Some(View::Area(AreaView::new(*self, from))),
-            _ => DiskSlab::new(self, from).map(View::SolidAngle),
+            SurfaceDensity::Area => then.with(AreaView::new(*self, from), View::Area),
+            _ => then.with(DiskSlab::new(self, from)?, View::SolidAngle),
         }
     }
 

@@ -33,7 +33,7 @@ pub use projected_view::{FlatShape, ProjectedView};
 pub use rectangle::RectangleSolidAngle;
 pub use spot::Spot;
 pub use triangle::TriangleSolidAngle;
-pub use view::{AreaView, NoView, SurfaceSample, SurfaceView, View};
+pub use view::{AreaView, NoView, SurfaceSample, SurfaceView, UseView, View};
 
 use projected_view::{faces, flat_projected_solid_angle};
 

@@ -2,7 +2,7 @@
 
 use super::{
     AreaView, FlatShape, ProjectedView, Receiver, SampledShape, Sides, SurfaceDensity, SurfaceSample,
-    SurfaceView, View, faces, flat_projected_solid_angle,
+    SurfaceView, UseView, View, faces, flat_projected_solid_angle,
 };
 use crate::geom::Frame;
 use crate::num::{self, ONE_MINUS_EPSILON};
@@ -71,8 +71,14 @@ impl SampledShape for Polygon {
         [Shares::new(self, Triangle::area).join(i, first), second]
     }
 
-    #[inline]
-    fn view(&self, from: &Receiver, method: SurfaceDensity, sides: Sides) -> Option<Self::View> {
+    #[inline(always)]
+    fn with_view<U: UseView<Self::View>>(
+        &self,
+        from: &Receiver,
+        method: SurfaceDensity,
+        sides: Sides,
+        then: U,
+    ) -> Option<U::Output> {
         let chart = self.chart(from.point);
         if !faces(&chart, sides) {
             return None;
@@ -80,9 +86,11 @@ impl SampledShape for Polygon {
         let bounds = self.bounds();
         let (centre, radius) = ((bounds.min + bounds.max) * 0.5, (bounds.max - bounds.min).length() * 0.5);
         match method.required(from, centre, radius, SurfaceDensity::Area) {
-            SurfaceDensity::Area => Some(View::Area(AreaView::new(*self, from))),
-            SurfaceDensity::SolidAngle => PolygonSolidAngle::new(*self, from.point).map(View::SolidAngle),
-            _ => ProjectedView::new(self, from, &chart).map(View::Projected),
+            SurfaceDensity::Area => then.with(AreaView::new(*self, from), View::Area),
+            SurfaceDensity::SolidAngle => {
+                then.with(PolygonSolidAngle::new(*self, from.point)?, View::SolidAngle)
+            }
+            _ => then.with(ProjectedView::new(self, from, &chart)?, View::Projected),
         }
     }
 

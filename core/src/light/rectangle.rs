@@ -2,10 +2,9 @@
 
 use super::{
     AreaView, FlatShape, ProjectedView, Receiver, SampledShape, Sides, SurfaceDensity, SurfaceSample,
-    SurfaceView, View, faces, flat_projected_solid_angle,
+    SurfaceView, UseView, View, faces, flat_projected_solid_angle,
 };
-use crate::geom::unit;
-use crate::num::ONE_MINUS_EPSILON;
+use crate::num::{self, ONE_MINUS_EPSILON};
 use crate::projected::Chart;
 use crate::shape::{Rectangle, SurfacePoint};
 use crate::solid_angle::{RectanglePlace, SphericalRectangle};
@@ -25,19 +24,25 @@ impl SampledShape for Rectangle {
         [a, b].map(|x| (0.5 * x + 0.5).clamp(0.0, ONE_MINUS_EPSILON))
     }
 
-    #[inline]
-    fn view(&self, from: &Receiver, method: SurfaceDensity, sides: Sides) -> Option<Self::View> {
+    #[inline(always)]
+    fn with_view<U: UseView<Self::View>>(
+        &self,
+        from: &Receiver,
+        method: SurfaceDensity,
+        sides: Sides,
+        then: U,
+    ) -> Option<U::Output> {
         let chart = self.chart(from.point);
         if !faces(&chart, sides) {
             return None;
         }
         let radius = (self.half_u() + self.half_v()).length();
         match method.required(from, self.centre(), radius, SurfaceDensity::Area) {
-            SurfaceDensity::Area => Some(View::Area(AreaView::new(*self, from))),
+            SurfaceDensity::Area => then.with(AreaView::new(*self, from), View::Area),
             SurfaceDensity::SolidAngle => {
-                RectangleSolidAngle::new(*self, Local::new(&chart)).map(View::SolidAngle)
+                then.with(RectangleSolidAngle::new(*self, Local::new(self, &chart))?, View::SolidAngle)
             }
-            _ => ProjectedView::new(self, from, &chart).map(View::Projected),
+            _ => then.with(ProjectedView::new(self, from, &chart)?, View::Projected),
         }
     }
 
@@ -80,18 +85,22 @@ struct Local {
 
 impl Local {
     /// In double precision: 1 mrad above the plane, or at 1e-6 sizes from it, single has two or
-    /// three digits of the height.
-    #[inline]
-    fn new(chart: &Chart) -> Self {
-        let (u_length, v_length) = (chart.u.length(), chart.v.length());
-        let (u, v) = (chart.u / u_length, chart.v / v_length);
-        let normal = u.cross(v);
-        let below = normal.dot(chart.origin);
-        let toward = if below < 0.0 { -normal } else { normal };
+    /// three digits of the height, and of a corner near the foot none.
+    #[inline(always)]
+    fn new(shape: &Rectangle, chart: &Chart) -> Self {
+        let Chart { origin, u, v } = *chart;
+        let (uu, vv) = (u.length_squared(), v.length_squared());
+        let (per_u, per_v) = (1.0 / libm::sqrt(uu), 1.0 / libm::sqrt(vv));
+        let below = u.cross(v).dot(origin) * (per_u * per_v);
+        let normal = shape.normal();
         Self {
-            axes: [u.as_vec3(), v.as_vec3(), toward.as_vec3()],
-            corner: [(u.dot(chart.origin) - u_length) as f32, (v.dot(chart.origin) - v_length) as f32],
-            size: [(2.0 * u_length) as f32, (2.0 * v_length) as f32],
+            axes: [
+                shape.half_u() * per_u as f32,
+                shape.half_v() * per_v as f32,
+                if below < 0.0 { -normal } else { normal },
+            ],
+            corner: [((u.dot(origin) - uu) * per_u) as f32, ((v.dot(origin) - vv) * per_v) as f32],
+            size: [(2.0 * uu * per_u) as f32, (2.0 * vv * per_v) as f32],
             height: below.abs() as f32,
         }
     }
@@ -106,7 +115,7 @@ pub struct RectangleSolidAngle {
 }
 
 impl RectangleSolidAngle {
-    #[inline]
+    #[inline(always)]
     fn new(shape: Rectangle, local: Local) -> Option<Self> {
         let seen = SphericalRectangle::new(local.corner, local.size, local.height)?;
         Some(Self { shape, local, seen })
@@ -114,19 +123,23 @@ impl RectangleSolidAngle {
 }
 
 impl SurfaceView for RectangleSolidAngle {
-    #[inline]
+    #[inline(always)]
     fn sample(&self, u: [f32; 2]) -> Option<SurfaceSample> {
         let place = self.seen.sample(u);
         let [x, y, z] = self.local.axes;
+        // In units of the reach, with a height that its square can hold: no extremes here.
         let way = x * place.offset[0] + y * place.offset[1] + z * self.seen.height();
-        let wi = unit(way)?;
+        let length = num::sqrt(way.length_squared());
+        let distance = length * self.seen.reach();
+        if !(distance > 0.0) {
+            return None;
+        }
         let [s, t] = place.fraction;
         let at = self.shape.point(2.0 * s - 1.0, 2.0 * t - 1.0);
-        let distance = way.dot(wi) * self.seen.reach();
-        (distance > 0.0).then_some(SurfaceSample { at, wi, distance })
+        Some(SurfaceSample { at, wi: way * (1.0 / length), distance })
     }
 
-    #[inline]
+    #[inline(always)]
     fn pdf_solid_angle(&self, _: &SurfacePoint, _: Vec3, _: f32) -> Option<f32> {
         Some(1.0 / self.seen.solid_angle())
     }

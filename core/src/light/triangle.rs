@@ -2,7 +2,7 @@
 
 use super::{
     AreaView, FlatShape, ProjectedView, Receiver, SampledShape, Sides, SurfaceDensity, SurfaceSample,
-    SurfaceView, View, faces, flat_projected_solid_angle,
+    SurfaceView, UseView, View, faces, flat_projected_solid_angle,
 };
 use crate::projected::Chart;
 use crate::shape::{Shape, SurfacePoint, Triangle};
@@ -25,8 +25,14 @@ impl SampledShape for Triangle {
         warp::triangle_to_square([b1, b2])
     }
 
-    #[inline]
-    fn view(&self, from: &Receiver, method: SurfaceDensity, sides: Sides) -> Option<Self::View> {
+    #[inline(always)]
+    fn with_view<U: UseView<Self::View>>(
+        &self,
+        from: &Receiver,
+        method: SurfaceDensity,
+        sides: Sides,
+        then: U,
+    ) -> Option<U::Output> {
         let chart = self.chart(from.point);
         if !faces(&chart, sides) {
             return None;
@@ -34,9 +40,11 @@ impl SampledShape for Triangle {
         let bounds = self.bounds();
         let (centre, radius) = ((bounds.min + bounds.max) * 0.5, (bounds.max - bounds.min).length() * 0.5);
         match method.required(from, centre, radius, SurfaceDensity::Area) {
-            SurfaceDensity::Area => Some(View::Area(AreaView::new(*self, from))),
-            SurfaceDensity::SolidAngle => TriangleSolidAngle::new(*self, from.point).map(View::SolidAngle),
-            _ => ProjectedView::new(self, from, &chart).map(View::Projected),
+            SurfaceDensity::Area => then.with(AreaView::new(*self, from), View::Area),
+            SurfaceDensity::SolidAngle => {
+                then.with(TriangleSolidAngle::new(*self, from.point)?, View::SolidAngle)
+            }
+            _ => then.with(ProjectedView::new(self, from, &chart)?, View::Projected),
         }
     }
 
@@ -74,20 +82,23 @@ pub struct TriangleSolidAngle {
 }
 
 impl TriangleSolidAngle {
-    #[inline]
+    #[inline(always)]
     fn new(shape: Triangle, from: Vec3) -> Option<Self> {
         Some(Self { shape, seen: SphericalTriangle::new(from, &shape.corners())? })
     }
 }
 
 impl SurfaceView for TriangleSolidAngle {
-    #[inline]
+    #[inline(always)]
     fn sample(&self, u: [f32; 2]) -> Option<SurfaceSample> {
         let TrianglePlace { barycentric: [b1, b2], direction: wi, distance } = self.seen.sample(u);
-        (distance > 0.0).then_some(SurfaceSample { at: self.shape.point(b1, b2), wi, distance })
+        if !(distance > 0.0) {
+            return None;
+        }
+        Some(SurfaceSample { at: self.shape.point(b1, b2), wi, distance })
     }
 
-    #[inline]
+    #[inline(always)]
     fn pdf_solid_angle(&self, _: &SurfacePoint, _: Vec3, _: f32) -> Option<f32> {
         Some(1.0 / self.seen.solid_angle())
     }

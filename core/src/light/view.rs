@@ -50,6 +50,32 @@ pub trait SurfaceView: Copy {
     fn invert(&self, at: &SurfacePoint, wi: Vec3) -> Option<[f32; 2]>;
 }
 
+/// What is done with a view, whichever density it has.
+///
+/// A view can be some hundred bytes of which a query needs four: handed to its user, it stays in
+/// registers, and what is not asked for is not computed.
+///
+/// * `A` – any view of the shape
+pub trait UseView<A> {
+    /// What comes out.
+    type Output;
+
+    /// Uses the view; `any` makes it one among those of the shape.
+    fn with<V: SurfaceView>(self, view: V, any: impl FnOnce(V) -> A) -> Option<Self::Output>;
+}
+
+/// Keeps the view.
+pub(super) struct Keep;
+
+impl<A> UseView<A> for Keep {
+    type Output = A;
+
+    #[inline(always)]
+    fn with<V: SurfaceView>(self, view: V, any: impl FnOnce(V) -> A) -> Option<A> {
+        Some(any(view))
+    }
+}
+
 /// Uniform over the whole surface, `1 / area` (m⁻²), seen or not.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AreaView<S> {

@@ -63,24 +63,29 @@ struct Axis {
 }
 
 impl Axis {
-    #[inline]
+    #[inline(always)]
     fn new(low: f32, size: f32) -> Self {
         let turned = low + 0.5 * size < 0.0;
         Self { low: if turned { -(low + size) } else { low }, size, turned }
     }
 
-    #[inline]
+    #[inline(always)]
+    fn scaled(&self, scale: f32) -> Self {
+        Self { low: self.low * scale, size: self.size * scale, ..*self }
+    }
+
+    #[inline(always)]
     fn high(&self) -> f32 {
         self.low + self.size
     }
 
-    #[inline]
+    #[inline(always)]
     fn spans_foot(&self) -> bool {
         self.low < 0.0
     }
 
     /// From here to the rectangle's own offset and fraction, or back.
-    #[inline]
+    #[inline(always)]
     fn turn(&self, [offset, fraction]: [f32; 2]) -> [f32; 2] {
         if self.turned { [-offset, 1.0 - fraction] } else { [offset, fraction] }
     }
@@ -107,11 +112,17 @@ struct Column {
     cos: f32,
     sin: f32,
     delta: f32,
-    tau: f32,
+}
+
+/// `τ` of `Δ`.
+#[inline(always)]
+fn tau(delta: f32) -> f32 {
+    let square = delta * delta;
+    square / (1.0 + num::sqrt(1.0 + square))
 }
 
 impl Strip {
-    #[inline]
+    #[inline(always)]
     fn new(y: &Axis, z: f32) -> Self {
         let (y0, y1) = (y.low, y.high());
         let zz = z * z;
@@ -119,7 +130,7 @@ impl Strip {
         Self { y0, y1, size: y.size, z, inverse_rho, kappa: zz * inverse_rho }
     }
 
-    #[inline]
+    #[inline(always)]
     fn column(&self, x: f32) -> Column {
         let Self { y0, y1, z, .. } = *self;
         let d2 = x * x + z * z;
@@ -134,12 +145,17 @@ impl Strip {
             cos: (z * z * r[0] * r[1] + x * x * y0 * y1) * self.inverse_rho / d2,
             sin: x * z * delta * self.inverse_rho,
             delta,
-            tau: delta * delta / (1.0 + num::sqrt(1.0 + delta * delta)),
         }
     }
 
+    /// The column with the sine of its angle and `Δ²`.
+    #[inline(always)]
+    fn x_of(&self, sin: f32, delta2: f32) -> f32 {
+        self.z * sin / (self.kappa * num::sqrt(delta2))
+    }
+
     /// Where `v` of the column's solid angle is below, in `[y₀, y₁]`, and how far from `y₀`.
-    #[inline]
+    #[inline(always)]
     fn along(&self, x: f32, v: f32) -> [f32; 2] {
         let Self { y0, y1, size, z, .. } = *self;
         let dd = x * x + z * z;
@@ -153,15 +169,15 @@ impl Strip {
             let h = h0 + v * range;
             let rest =
                 if h < 0.0 { dd / (e0 * (e0 - y0)) + v * range } else { rest_high + (1.0 - v) * range };
-            let y = (d * h / num::sqrt(rest * (2.0 - rest))).max(y0).min(y1);
-            return [y, (y - y0).min(size)];
+            let y = num::clamp(d * h / num::sqrt(rest * (2.0 - rest)), y0, y1);
+            return [y, num::clamp(y - y0, 0.0, size)];
         }
         let range = dd * size * (y1 + y0) / (e0 * e1 * (y1 * e0 + y0 * e1));
         let h = h0 + v * range;
         let rest = rest_high + (1.0 - v) * range;
         let k = rest * (2.0 - rest);
-        let sum = (d * h / num::sqrt(k) + y0).max(f32::MIN_POSITIVE);
-        let step = (e0 * e0 * v * range * (h + h0) / (k * sum)).max(0.0).min(size);
+        let sum = num::larger(d * h / num::sqrt(k) + y0, f32::MIN_POSITIVE);
+        let step = num::clamp(e0 * e0 * v * range * (h + h0) / (k * sum), 0.0, size);
         [y0 + step, step]
     }
 
@@ -183,17 +199,17 @@ impl SphericalRectangle {
     /// plane; all in one unit of length. The size counts for itself: far away the sum has lost it.
     ///
     /// `None` when the size or the height is not above 0, or something is not finite.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn new(corner: [f32; 2], size: [f32; 2], height: f32) -> Option<Self> {
-        let far = |i: usize| corner[i].abs().max((corner[i] + size[i]).abs());
-        let reach = far(0).max(far(1)).max(height);
+        let [first, second] = [0, 1].map(|i| Axis::new(corner[i], size[i]));
+        let reach = num::larger(num::larger(first.high(), second.high()), height);
         if !(size[0] > 0.0 && size[1] > 0.0 && height > 0.0 && reach < f32::INFINITY) {
             return None;
         }
         let scale = 1.0 / reach;
-        let z = (height * scale).max(LEAST_HEIGHT);
-        let [first, second] = [0, 1].map(|i| Axis::new(corner[i] * scale, size[i] * scale));
+        let z = num::larger(height * scale, LEAST_HEIGHT);
+        let (first, second) = (first.scaled(scale), second.scaled(scale));
         // Columns run along the axis whose ends are on both sides of the foot, if only one is.
         let swapped = second.spans_foot() && !first.spans_foot();
         let (x, y) = if swapped { (second, first) } else { (first, second) };
@@ -201,35 +217,28 @@ impl SphericalRectangle {
         let (low, high) = (strip.column(x.low), strip.column(x.high()));
         let (solid_angle, half) =
             if x.spans_foot() { both_sides(&low, &high) } else { one_corner(&x, &strip, &low, &high) };
-        (solid_angle >= f32::MIN_POSITIVE).then_some(Self {
-            solid_angle,
-            reach,
-            swapped,
-            x,
-            y,
-            strip,
-            low,
-            high,
-            half,
-        })
+        if !(solid_angle >= f32::MIN_POSITIVE) {
+            return None;
+        }
+        Some(Self { solid_angle, reach, swapped, x, y, strip, low, high, half })
     }
 
     /// The solid angle (sr), in `(0, 2π]`.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn solid_angle(&self) -> f32 {
         self.solid_angle
     }
 
     /// The unit of offsets: the farthest coordinate, or the height.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn reach(&self) -> f32 {
         self.reach
     }
 
     /// The height in units of the reach.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn height(&self) -> f32 {
         self.strip.z
@@ -245,7 +254,7 @@ impl SphericalRectangle {
     /// Draws a place with the density `1 / solid_angle` (sr⁻¹) in its direction.
     ///
     /// * `u` – two independent uniforms, each in `[0, 1)`
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn sample(&self, u: [f32; 2]) -> RectanglePlace {
         let x = self.column_of(u[0]);
@@ -276,39 +285,64 @@ impl SphericalRectangle {
     }
 
     /// The column below which is the share `u` of the solid angle, and how far from the low one.
-    #[inline]
+    #[inline(always)]
     fn column_of(&self, u: f32) -> [f32; 2] {
-        let Self { strip, low, high, .. } = self;
-        let (sin_h, cos_h) = num::sin_cos(0.5 * u * self.solid_angle);
-        let middle = low.sin * cos_h + low.cos * sin_h;
-        let sin = middle * cos_h + (low.cos * cos_h - low.sin * sin_h) * sin_h;
+        let (sin, cos) = num::sin_cos(0.5 * u * self.solid_angle);
         // Half of what is above the column.
-        let sin_r = self.half[1] * cos_h - self.half[0] * sin_h;
-        let cos_r = self.half[0] * cos_h + self.half[1] * sin_h;
+        let [cos_half, sin_half] = self.half;
+        let rest = [cos_half * cos + sin_half * sin, sin_half * cos - cos_half * sin];
+        // The angle halfway from the low column.
+        let low = &self.low;
+        let middle = [low.cos * cos - low.sin * sin, low.sin * cos + low.cos * sin];
+        let angle = middle[1] * cos + middle[0] * sin;
         // What the cosine of the angle lost from the low column on.
-        let fall = 2.0 * sin_h * middle;
-        let rise = 2.0 * sin_r * (high.sin * cos_r - high.cos * sin_r);
-        let (end, gain) = if sin < 0.0 { (low.tau, -fall) } else { (high.tau, rise) };
-        let tau = end + gain.max(0.0) / strip.kappa;
-        let delta2 = tau * (tau + 2.0);
-        let x = strip.z * sin / (strip.kappa * num::sqrt(delta2));
-        let (low_x, high_x) = (self.x.low, self.x.high());
+        let fall = 2.0 * sin * middle[1];
         if self.x.spans_foot() {
-            // In this order NaN, where τ is 0, becomes an end.
-            let x = x.max(low_x).min(high_x);
-            return [x, (x - low_x).min(self.x.size)];
+            self.column_across(angle, fall, rest)
+        } else {
+            // What it will lose up to the high one.
+            let rise = 2.0 * rest[1] * (middle[1] * cos_half + middle[0] * sin_half);
+            self.column_beside(angle, fall, rise)
         }
+    }
+
+    /// With the foot between both ends.
+    ///
+    /// * `sin` – of the column's angle
+    /// * `rest` – cosine and sine of half the angle up to the high column
+    #[inline(always)]
+    fn column_across(&self, sin: f32, fall: f32, [cos_r, sin_r]: [f32; 2]) -> [f32; 2] {
+        let Self { x: Axis { low, size, .. }, strip, low: low_column, high: high_column, .. } = self;
+        // From the end on the same side.
+        let (end, gain) = if sin < 0.0 {
+            (low_column.delta, -fall)
+        } else {
+            (high_column.delta, 2.0 * sin_r * (high_column.sin * cos_r - high_column.cos * sin_r))
+        };
+        let tau = tau(end) + num::larger(gain, 0.0) / strip.kappa;
+        // NaN, where τ is 0, becomes an end.
+        let x = num::clamp(strip.x_of(sin, tau * (tau + 2.0)), *low, self.x.high());
+        [x, num::clamp(x - low, 0.0, *size)]
+    }
+
+    /// With the foot beside both ends: the step from the low one, of terms that are all positive.
+    #[inline(always)]
+    fn column_beside(&self, sin: f32, fall: f32, rise: f32) -> [f32; 2] {
+        let Self { x: Axis { low, size, .. }, strip, low: low_column, high: high_column, .. } = self;
+        let (tau, tau_low) =
+            (tau(high_column.delta) + num::larger(rise, 0.0) / strip.kappa, tau(low_column.delta));
+        let delta2 = tau * (tau + 2.0);
+        let sum = num::larger(strip.x_of(sin, delta2) + low, f32::MIN_POSITIVE);
         let across =
-            strip.size * strip.size * (2.0 + tau + low.tau) - 2.0 * strip.y0 * strip.y1 * tau * low.tau;
-        let sum = (x + low_x).max(f32::MIN_POSITIVE);
-        let step = fall / strip.kappa / delta2 * across / (low.delta * low.delta) / sum;
-        let step = step.max(0.0).min(self.x.size);
-        [low_x + step, step]
+            strip.size * strip.size * (2.0 + tau + tau_low) - 2.0 * strip.y0 * strip.y1 * tau * tau_low;
+        let step = fall / strip.kappa / delta2 * across / (low_column.delta * low_column.delta) / sum;
+        let step = num::clamp(step, 0.0, *size);
+        [low + step, step]
     }
 }
 
 /// Solid angle (sr) from a low to a high column on two sides of the foot, and half of it.
-#[inline]
+#[inline(always)]
 fn both_sides(low: &Column, high: &Column) -> (f32, [f32; 2]) {
     let cos = low.cos * high.cos + low.sin * high.sin;
     let sin = high.sin * low.cos - low.sin * high.cos;
@@ -325,7 +359,7 @@ fn both_sides(low: &Column, high: &Column) -> (f32, [f32; 2]) {
 ///
 /// Source: Van Oosterom, Strackee 1983, *The Solid Angle of a Plane Triangle*, IEEE Trans. Biomed.
 /// Eng. 30(2), equation 8.
-#[inline]
+#[inline(always)]
 fn one_corner(x: &Axis, strip: &Strip, low: &Column, high: &Column) -> (f32, [f32; 2]) {
     let Strip { y0, y1, z, .. } = *strip;
     let (x0, x1) = (x.low, x.high());

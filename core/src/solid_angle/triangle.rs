@@ -56,33 +56,37 @@ pub struct SphericalTriangle {
 
 /// The corners relative to a receiver.
 struct Relative {
-    /// Positions, directions and distances.
-    p: [DVec3; 3],
+    /// Directions, and one over their distances.
     v: [DVec3; 3],
-    l: [f64; 3],
-    /// From the first corner to the second and third, or from the receiver to them, whichever is
-    /// shorter and so has lost less: all that counts is the part across the first direction.
-    ways: [DVec3; 2],
+    per_l: [f64; 3],
+    /// Normals of the planes through the receiver and the first corner: with the second, of length
+    /// `l₁ sin`, and with the third, `l₂ sin`.
+    side: DVec3,
+    base: DVec3,
+    /// Volume of the first direction and the other corners, negative when clockwise.
+    det: f64,
 }
 
 impl Relative {
-    #[inline]
+    #[inline(always)]
     fn new(from: Vec3, corners: &[Vec3; 3]) -> Self {
-        let p = corners.map(|c| c.as_dvec3() - from.as_dvec3());
-        let l = p.map(DVec3::length);
-        let ways = [shorter(p[1] - p[0], p[1]), shorter(p[2] - p[0], p[2])];
-        Self { p, v: [p[0] / l[0], p[1] / l[1], p[2] / l[2]], l, ways }
-    }
-
-    /// Volume of the unit corners.
-    #[inline]
-    fn volume(&self) -> f64 {
-        self.v[0].dot(self.ways[0].cross(self.ways[1])).abs() / (self.l[1] * self.l[2])
+        let [a, b, c] = corners.map(|c| c.as_dvec3());
+        let p = [a, b, c].map(|corner| corner - from.as_dvec3());
+        let squares = p.map(DVec3::length_squared);
+        let per_l = squares.map(|square| 1.0 / libm::sqrt(square));
+        let v = [p[0] * per_l[0], p[1] * per_l[1], p[2] * per_l[2]];
+        // From the first corner to the others, or from the receiver, whichever is shorter and so has
+        // lost less: all that counts is the part across the first direction.
+        let shorter = |edge: DVec3, i: usize| if squares[i] < edge.length_squared() { p[i] } else { edge };
+        let ways = [shorter(b - a, 1), shorter(c - a, 2)];
+        // Products of differences of `f32` are exact: a needle has its area.
+        let det = v[0].dot(ways[0].cross(ways[1]));
+        Self { v, per_l, side: v[0].cross(ways[0]), base: v[0].cross(ways[1]), det }
     }
 
     /// `1 + Σ cos` as `(vᵢ + vₖ)·(vⱼ + vₖ)`. In a needle's plane the first and second are opposite to
     /// the third; their sums are small, and so is what they lose.
-    #[inline]
+    #[inline(always)]
     fn cosines(&self) -> f64 {
         let [v0, v1, v2] = self.v;
         let (c0, c1, c2) = (v1.dot(v2), v2.dot(v0), v0.dot(v1));
@@ -95,23 +99,18 @@ impl Relative {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn solid_angle(&self) -> f32 {
-        let angle = 2.0 * num::atan2(self.volume() as f32, self.cosines() as f32);
+        let volume = self.det.abs() * (self.per_l[1] * self.per_l[2]);
+        let angle = 2.0 * num::atan2(volume as f32, self.cosines() as f32);
         // NaN at a corner.
-        if angle > 0.0 { angle } else { 0.0 }
+        num::larger(angle, 0.0)
     }
 }
 
-#[inline]
-fn shorter(a: DVec3, b: DVec3) -> DVec3 {
-    if b.length_squared() < a.length_squared() { b } else { a }
-}
-
-/// Unit tangent at the direction `v` on the side of `way`.
-#[inline]
-fn tangent(v: DVec3, way: DVec3) -> DVec3 {
-    (way - v * v.dot(way)).normalize()
+#[inline(always)]
+fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
 }
 
 /// Solid angle of a triangle (sr), in `[0, 2π]`, from either side; 0 in its plane.
@@ -126,35 +125,41 @@ impl SphericalTriangle {
     ///
     /// `None` in its plane, when it has no area or is too small for `f32` from there, or when something
     /// is not finite.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn new(from: Vec3, corners: &[Vec3; 3]) -> Option<Self> {
         let relative = Relative::new(from, corners);
         let solid_angle = relative.solid_angle();
-        let Relative { p, v: [v0, v1, v2], l, ways } = relative;
-        // Tangents at the first corner toward the others, at the second toward the first.
-        let [along_side, along_base] = ways.map(|way| tangent(v0, way));
-        let back = tangent(v1, shorter(p[0] - p[1], p[0]));
-        let aside = v1.cross(back);
-        let (sin_side, sin_base) = (v0.cross(ways[0]).length() / l[1], v0.cross(ways[1]).length() / l[2]);
-        let versine_below = 0.5 * (v0 + v1).length_squared();
-        let versine = (sin_side * sin_side / versine_below) as f32;
-        let nearest = l[0].min(l[1]).min(l[2]);
-        let seen = solid_angle >= f32::MIN_POSITIVE
-            && versine >= f32::MIN_POSITIVE
-            && sin_base > 0.0
-            && !(along_side + along_base + back).is_nan();
-        seen.then_some(Self {
+        let Relative { v: [v0, v1, v2], per_l: [per_l0, per_l1, per_l2], side, base, det } = relative;
+        let (side_length, base_length) = (side.length(), base.length());
+        let sin_side = side_length * per_l1;
+        let below = 0.5 * (v0 + v1).length_squared();
+        // Of 1 − cos and 1 + cos, the smaller one has the digits.
+        let (versine, cot_half) = if below < 1.0 {
+            (2.0 - below, sin_side / (2.0 - below))
+        } else {
+            (sin_side * sin_side / below, below / sin_side)
+        };
+        let versine = versine as f32;
+        // NaN is refused too; a volume above 0 has sides above 0.
+        if !(solid_angle >= f32::MIN_POSITIVE && versine >= f32::MIN_POSITIVE) {
+            return None;
+        }
+        let (per_side, per_both) = (1.0 / side_length, 1.0 / (side_length * base_length));
+        let aside = side * per_side;
+        let nearest = 1.0 / larger(larger(per_l0, per_l1), per_l2);
+        Some(Self {
             solid_angle,
             apex: v1.as_vec3(),
-            toward_first: back.as_vec3(),
-            toward_third: (if aside.dot(p[2] - p[1]) < 0.0 { -aside } else { aside }).as_vec3(),
-            alpha: [along_side.dot(along_base) as f32, (relative.volume() / (sin_base * sin_side)) as f32],
+            toward_first: v1.cross(aside).as_vec3(),
+            toward_third: (if det < 0.0 { -aside } else { aside }).as_vec3(),
+            // Between the planes of both sides: their normals are the tangents, turned.
+            alpha: [(side.dot(base) * per_both) as f32, (det.abs() * per_both) as f32],
             versine,
-            cot_half: (versine_below / sin_side) as f32,
-            base: [v0.dot(v2) as f32, sin_base as f32],
+            cot_half: cot_half as f32,
+            base: [v0.dot(v2) as f32, (base_length * per_l2) as f32],
             nearest: nearest as f32,
-            nearness: l.map(|l| (nearest / l) as f32),
+            nearness: [per_l0, per_l1, per_l2].map(|per_l| (nearest * per_l) as f32),
         })
     }
 
@@ -168,7 +173,7 @@ impl SphericalTriangle {
     /// Draws a place with the density `1 / solid_angle` (sr⁻¹) in its direction.
     ///
     /// * `u` – two independent uniforms, each in `[0, 1)`
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn sample(&self, u: [f32; 2]) -> TrianglePlace {
         let arc = Arc::new(self, num::sin_cos(0.5 * u[0] * self.solid_angle));
@@ -180,9 +185,9 @@ impl SphericalTriangle {
         // The place by the sines of the parts of both arcs: what the corners weigh, times distance.
         let [cos_base, sin_base] = self.base;
         let sin_max = num::sqrt(arc.versine * arc.versine_below);
-        let rest = (sin_max * cos - (1.0 - arc.versine) * sin).max(0.0);
+        let rest = num::larger(sin_max * cos - (1.0 - arc.versine) * sin, 0.0);
         let weights = [
-            sin * (sin_base * arc.cos - cos_base * arc.sin).max(0.0) * self.nearness[0],
+            sin * num::larger(sin_base * arc.cos - cos_base * arc.sin, 0.0) * self.nearness[0],
             rest * sin_base * self.nearness[1],
             sin * arc.sin * self.nearness[2],
         ];
@@ -266,7 +271,7 @@ impl Arc {
         let SphericalTriangle { alpha: [cos_a, sin_a], versine: n, cot_half, .. } = *triangle;
         let per_n = sin_h / n;
         let (x, y) = (cos_h * sin_a - sin_h * cos_a, sin_h * cot_half);
-        let inverse = 1.0 / (x * x + y * y).max(f32::MIN_POSITIVE);
+        let inverse = 1.0 / num::larger(x * x + y * y, f32::MIN_POSITIVE);
         let z = cos_h * sin_a - 2.0 * per_n * cos_a;
         let w = sin_h * cot_half * cot_half * sin_a;
         let norm2 = z * z + w * w;
@@ -278,7 +283,7 @@ impl Arc {
         let (versine, below) = if below < 1.0 { (2.0 - below, below) } else { (versine, 2.0 - versine) };
         Self {
             cos: (x - y) * (x + y) * inverse,
-            sin: (2.0 * x * y * inverse).max(0.0),
+            sin: num::larger(2.0 * x * y * inverse, 0.0),
             versine,
             versine_below: below,
             tangent: if length > 0.0 { tangent.map(|t| t / length) } else { [1.0, 0.0] },

@@ -3,7 +3,9 @@
 mod inside;
 mod outside;
 
-use super::{AreaView, Receiver, SampledShape, Sides, SurfaceDensity, SurfaceSample, SurfaceView, View};
+use super::{
+    AreaView, Receiver, SampledShape, Sides, SurfaceDensity, SurfaceSample, SurfaceView, UseView, View,
+};
 use crate::geom::unit;
 use crate::irradiance;
 use crate::num;
@@ -85,21 +87,33 @@ impl SampledShape for Sphere {
         outward.dot(from - at.point) < 0.0 && self.clearance(from) > 0.0
     }
 
-    #[inline]
-    fn view(&self, from: &Receiver, method: SurfaceDensity, sides: Sides) -> Option<Self::View> {
+    #[inline(always)]
+    fn with_view<U: UseView<Self::View>>(
+        &self,
+        from: &Receiver,
+        method: SurfaceDensity,
+        sides: Sides,
+        then: U,
+    ) -> Option<U::Output> {
         let gap = clearance(self, from.point, sides)?;
         match method.required(from, self.centre(), self.radius(), SurfaceDensity::SolidAngle) {
-            SurfaceDensity::Area => Some(View::Area(AreaView::new(*self, from))),
-            SurfaceDensity::SolidAngle => Some(View::SolidAngle(if gap > 0.0 {
-                SphereView::Outside(SphereCone::new(self, from, gap)?)
-            } else {
-                SphereView::Inside(SphereInside::new(self, from, gap, false))
-            })),
-            SurfaceDensity::Projected | SurfaceDensity::Auto => Some(View::Projected(if gap > 0.0 {
-                SphereView::Outside(SphereCap::new(self, from, gap)?)
-            } else {
-                SphereView::Inside(SphereInside::new(self, from, gap, true))
-            })),
+            SurfaceDensity::Area => then.with(AreaView::new(*self, from), View::Area),
+            SurfaceDensity::SolidAngle if gap > 0.0 => {
+                let cone = SphereCone::new(self, from, gap)?;
+                then.with(cone, |v| View::SolidAngle(SphereView::Outside(v)))
+            }
+            SurfaceDensity::SolidAngle => {
+                let inside = SphereInside::new(self, from, gap, false);
+                then.with(inside, |v| View::SolidAngle(SphereView::Inside(v)))
+            }
+            SurfaceDensity::Projected | SurfaceDensity::Auto if gap > 0.0 => {
+                let cap = SphereCap::new(self, from, gap)?;
+                then.with(cap, |v| View::Projected(SphereView::Outside(v)))
+            }
+            SurfaceDensity::Projected | SurfaceDensity::Auto => {
+                let inside = SphereInside::new(self, from, gap, true);
+                then.with(inside, |v| View::Projected(SphereView::Inside(v)))
+            }
         }
     }
 

@@ -1,7 +1,12 @@
 //! Scalar functions that give the same bits on every target.
 //!
-//! Everything that is not an exact IEEE operation comes from [`libm`], also where the platform
-//! would offer its own: a picture rendered on x86-64, in WebAssembly and on a Cortex-M is the same.
+//! Everything that is not an exact IEEE operation comes from [`libm`] or is made of such operations
+//! here, also where the platform would offer its own: a picture rendered on x86-64, in WebAssembly
+//! and on a Cortex-M is the same.
+
+mod trig;
+
+pub use trig::{atan2, sin_cos, sin_cos_turns};
 
 pub use core::f32::consts::{FRAC_1_PI, FRAC_PI_2, FRAC_PI_4, PI, TAU};
 
@@ -27,18 +32,26 @@ pub fn sqrt(x: f32) -> f32 {
     libm::sqrtf(if x > 0.0 { x } else { 0.0 })
 }
 
+/// The larger of two numbers; `b` when `a` is NaN. A single instruction, which `f32::max` is not.
+#[inline(always)]
+#[must_use]
+pub fn larger(a: f32, b: f32) -> f32 {
+    if a > b { a } else { b }
+}
+
+/// `x` in `[low, high]`: the nearest there, and `low` for NaN.
+#[inline(always)]
+#[must_use]
+pub fn clamp(x: f32, low: f32, high: f32) -> f32 {
+    let x = larger(x, low);
+    if x < high { x } else { high }
+}
+
 /// `x` in `[0, 1)`: the nearest there, and 0 for NaN.
 #[inline]
 #[must_use]
 pub fn clamp_unit(x: f32) -> f32 {
     if x > 0.0 { x.min(ONE_MINUS_EPSILON) } else { 0.0 }
-}
-
-/// Sine and cosine of an angle (rad).
-#[inline]
-#[must_use]
-pub fn sin_cos(x: f32) -> (f32, f32) {
-    libm::sincosf(x)
 }
 
 /// `x` to the power `y`.
@@ -74,13 +87,6 @@ pub fn ln(x: f32) -> f32 {
 #[must_use]
 pub fn ln_1p(x: f32) -> f32 {
     libm::log1pf(x)
-}
-
-/// Angle of the vector (x, y) (rad), in `[−π, π]`.
-#[inline]
-#[must_use]
-pub fn atan2(y: f32, x: f32) -> f32 {
-    libm::atan2f(y, x)
 }
 
 /// `Σ a_i b_i` as if in twice the precision, rounded once: keeps its digits when the terms cancel.
