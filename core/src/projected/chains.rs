@@ -2,7 +2,6 @@
 
 use super::clip::Above;
 use super::meridian::Cut;
-use glam::Vec3;
 
 /// Edges in one direction around the zenith.
 #[derive(Debug, Clone, Copy)]
@@ -35,47 +34,41 @@ impl<'a, const N: usize> Layout<'a, N> {
     /// `None` for a polygon that rounding has turned inside out, or that has no width.
     #[inline]
     pub(super) fn of(above: &'a Above<N>) -> Option<Self> {
-        let n = above.corners().len();
-        let mut turns = [0_i8; N];
         let corners = above.corners();
-        for (i, turn) in turns[..n].iter_mut().enumerate() {
-            *turn = above.turn(&corners[i], &corners[next(i, n)]);
+        let n = corners.len();
+        let (mut forward, mut backward) = (0_u32, 0_u32);
+        for (i, corner) in corners.iter().enumerate() {
+            let (x, rounding) = above.azimuth_and_rounding(corner, &corners[next(i, n)]);
+            forward |= u32::from(x > rounding) << i;
+            backward |= u32::from(x < -rounding) << i;
         }
-        let turns = &turns[..n];
-        if !turns.contains(&1) {
+        if forward == 0 {
             return None;
         }
-        if !turns.contains(&-1) {
+        if backward == 0 {
             return Some(Self::Around);
         }
-        let (rise, fall) = (change(turns, 1), change(turns, -1));
+        let rise = first_from(forward, backward.trailing_zeros() as usize);
+        let fall = first_from(backward, rise);
         // Edges along a meridian belong to neither chain.
-        let (mut outer_end, mut inner_end) = (fall, rise);
-        while turns[previous(outer_end, n)] == 0 {
-            outer_end = previous(outer_end, n);
-        }
-        while turns[previous(inner_end, n)] == 0 {
-            inner_end = previous(inner_end, n);
-        }
+        let back_to = |edges: u32, mut end: usize| {
+            while edges >> previous(end, n) & 1 == 0 {
+                end = previous(end, n);
+            }
+            end
+        };
+        let (outer_end, inner_end) = (back_to(forward, fall), back_to(backward, rise));
         let outer = Chain { at: rise, left: distance(rise, outer_end, n) };
         let inner = Chain { at: inner_end, left: distance(fall, inner_end, n) };
         Some(Self::Beside(Chains { above, outer, inner }))
     }
 }
 
-/// The first index with the turn `to` after one with the opposite turn, zeros aside.
+/// The first bit that is set from bit `i` on, or else the first of all.
 #[inline]
-fn change(turns: &[i8], to: i8) -> usize {
-    let mut before = turns.iter().rev().copied().find(|t| *t != 0).unwrap_or(0);
-    for (i, &turn) in turns.iter().enumerate() {
-        if turn == to && before == -to {
-            return i;
-        }
-        if turn != 0 {
-            before = turn;
-        }
-    }
-    0
+fn first_from(bits: u32, i: usize) -> usize {
+    let at_or_after = bits >> i << i;
+    (if at_or_after == 0 { bits } else { at_or_after }).trailing_zeros() as usize
 }
 
 #[inline]
@@ -112,6 +105,9 @@ impl<const N: usize> Above<N> {
     fn meridian(&self, k: usize, [i, j]: [usize; 2], outward: bool) -> Cut {
         let corners = self.corners();
         let (a, b, c) = (&corners[i], &corners[j], &corners[k]);
+        if k == i || k == j {
+            return Cut::point(k, c);
+        }
         let per_width = 1.0 / self.azimuth(a, b);
         let wa = self.azimuth(c, b).max(0.0) * per_width;
         let wb = self.azimuth(a, c).max(0.0) * per_width;
@@ -130,10 +126,7 @@ impl<const N: usize> Above<N> {
     #[inline]
     pub(super) fn around(&self) -> impl Iterator<Item = Cut> {
         let corners = self.corners().iter().enumerate();
-        corners.clone().chain(corners.take(1)).map(|(i, corner)| {
-            let outer_place = corner.homogeneous();
-            Cut { corner: i, outer: corner.point, rise: 0.0, outer_place, inner_place: Vec3::ZERO }
-        })
+        corners.clone().chain(corners.take(1)).map(|(i, corner)| Cut::point(i, corner))
     }
 }
 

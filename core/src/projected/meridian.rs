@@ -1,5 +1,6 @@
 //! Meridians of a polygon: what it has at one azimuth.
 
+use super::clip::Corner;
 use glam::{DVec3, Vec3};
 
 /// The stretch of a meridian inside a polygon: between its outer boundary, nearer the horizon, and
@@ -89,20 +90,31 @@ pub(super) struct Cut {
 }
 
 impl Cut {
-    /// What brings the outer end to unit length.
+    /// A corner alone.
+    #[inline]
+    pub(super) fn point(index: usize, corner: &Corner) -> Self {
+        let place = corner.homogeneous();
+        Self { corner: index, outer: corner.point, rise: 0.0, outer_place: place, inner_place: place }
+    }
+
+    /// What brings the outer end to unit length (m⁻¹).
     #[inline]
     pub(super) fn scale(&self) -> f64 {
         1.0 / self.outer.length()
     }
 
-    /// The same `scale` times as long.
+    /// The same with the outer end a unit vector.
+    ///
+    /// * `scale` – [`Cut::scale`]
+    /// * `unit` – unit of length for the places (m)
     #[inline]
-    pub(super) fn scaled(&self, scale: f64) -> Meridian {
+    pub(super) fn scaled(&self, scale: f64, unit: f64) -> Meridian {
+        let weight = (scale * unit) as f32;
         Meridian {
             outer: (self.outer * scale).as_vec3(),
             rise: (self.rise * scale) as f32,
-            outer_place: self.outer_place * scale as f32,
-            inner_place: self.inner_place * scale as f32,
+            outer_place: self.outer_place * weight,
+            inner_place: self.inner_place * weight,
         }
     }
 }

@@ -15,8 +15,8 @@ use glam::{DVec3, Vec2, Vec3};
 /// It is cut along meridians into sectors between at most two edges. The first uniform picks the
 /// sector and the azimuth, the second the height.
 ///
-/// * `N` – four more than the polygon has corners: the horizon may cut off one and leave two, and the
-///   largest sectors, three at most, are halved
+/// * `N` – two more than the polygon has corners: the horizon may cut off one and leave two, and
+///   around the zenith the first meridian is the last as well
 ///
 /// Source: Peters 2021, *BRDF Importance Sampling for Polygonal Lights*, TOG 40(4), section 4.
 /// Differs: the sectors' areas and their inverses are sums of what is known without cancellation, so
@@ -24,15 +24,21 @@ use glam::{DVec3, Vec2, Vec3};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProjectedPolygon<const N: usize> {
     frame: Frame,
-    /// One unit of length (m).
+    /// Unit of length for places (m).
     unit: f32,
-    /// The zenith in homogeneous coordinates of the plane, times `volume`.
+    /// The zenith in homogeneous coordinates of the plane.
     zenith: Vec3,
-    /// Determinant of the plane's origin and axes.
-    volume: f32,
-    sectors: [Sector; N],
+    /// True when the sectors reach up to the zenith.
+    to_zenith: bool,
+    /// The sectors' sides: that of index i is between the meridians i and i + 1.
+    meridians: [Meridian; N],
+    /// The sectors' poles, as in [`Sector::new`].
+    poles: [Vec3; N],
+    /// The sectors' areas (sr).
+    areas: [f32; N],
+    /// How many sectors there are.
     len: usize,
-    /// Sum of the sectors' areas (sr).
+    /// Sum of the areas (sr).
     total: f32,
 }
 
@@ -56,58 +62,59 @@ impl<const N: usize> ProjectedPolygon<N> {
     ///
     /// * `normal` – the receiver's unit normal
     /// * `chart` – the polygon's plane, seen from the receiver
-    /// * `corners` – at most `N − 4`, convex, counter-clockwise in the chart's coordinates
+    /// * `corners` – at most `N − 2`, convex, counter-clockwise in the chart's coordinates
     #[inline]
     #[must_use]
     pub fn new(normal: Vec3, chart: &Chart, corners: &[Vec2]) -> Option<Self> {
         let above = Above::<N>::new(normal, chart, corners)?;
-        let Above { frame, unit, .. } = above;
-        let (volume, zenith) = (above.volume as f32, above.zenith.as_vec3());
-        let mut polygon =
-            Self { frame, unit, zenith, volume, sectors: [Sector::ZERO; N], len: 0, total: 0.0 };
-        match Layout::of(&above)? {
-            Layout::Around => polygon.sweep(&above, true, above.around()),
-            Layout::Beside(chains) => polygon.sweep(&above, false, chains.meridians()),
-        }
+        let polygon = match Layout::of(&above)? {
+            Layout::Around => Self::sweep(&above, true, above.around())?,
+            Layout::Beside(chains) => Self::sweep(&above, false, chains.meridians())?,
+        };
         // More than the hemisphere is rounding, of numbers too far apart for double precision.
         (polygon.total > 0.0 && polygon.total < num::PI * 1.000_1).then_some(polygon)
     }
 
-    /// Adds the sectors between meridians, which come in the order of their azimuth.
+    /// The sectors between meridians, which come in the order of their azimuth.
     #[inline]
-    fn sweep(&mut self, above: &Above<N>, to_zenith: bool, mut cuts: impl Iterator<Item = Cut>) {
-        let Some(mut before) = cuts.next() else { return };
+    fn sweep(above: &Above<N>, to_zenith: bool, mut cuts: impl Iterator<Item = Cut>) -> Option<Self> {
+        let mut before = cuts.next()?;
         let mut scale = before.scale();
-        for cut in cuts {
+        let unit = 1.0 / scale;
+        let mut polygon = Self {
+            frame: above.frame,
+            unit: unit as f32,
+            zenith: (above.zenith * (unit / above.volume)).as_vec3(),
+            to_zenith,
+            meridians: [Meridian::ZERO; N],
+            poles: [Vec3::ZERO; N],
+            areas: [0.0; N],
+            len: 0,
+            total: 0.0,
+        };
+        let mut first = before.scaled(scale, unit);
+        polygon.meridians[0] = first;
+        for cut in cuts.take(N - 1) {
             let cut_scale = cut.scale();
+            let last = cut.scaled(cut_scale, unit);
             let width = above.azimuth_between(before.corner, cut.corner);
             if width > 0.0 {
                 let pole = DVec3 { z: width, ..before.outer.cross(cut.outer) } * (scale * cut_scale);
-                let [first, last] = [before.scaled(scale), cut.scaled(cut_scale)];
-                self.push(Sector::new(first, last, pole.as_vec3(), to_zenith));
+                polygon.poles[polygon.len] = pole.as_vec3();
+                let area = Sector::new(first, last, pole.as_vec3(), to_zenith).area();
+                polygon.areas[polygon.len] = area;
+                polygon.total += area;
             }
-            (before, scale) = (cut, cut_scale);
+            polygon.len += 1;
+            polygon.meridians[polygon.len] = last;
+            (before, scale, first) = (cut, cut_scale, last);
         }
+        Some(polygon)
     }
 
-    /// Adds a sector.
     #[inline]
-    fn push(&mut self, sector: Sector) {
-        if sector.is_wide() {
-            return self.push_halves(&sector);
-        }
-        if let Some(slot) = self.sectors.get_mut(self.len) {
-            *slot = sector;
-            self.total += slot.measure();
-            self.len += 1;
-        }
-    }
-
-    #[cold]
-    fn push_halves(&mut self, sector: &Sector) {
-        let [first, last] = sector.halves();
-        self.push(first);
-        self.push(last);
+    fn sector(&self, i: usize) -> Sector {
+        Sector::new(self.meridians[i], self.meridians[i + 1], self.poles[i], self.to_zenith)
     }
 
     /// The projected solid angle (sr), above 0 and at most π.
@@ -132,15 +139,17 @@ impl<const N: usize> ProjectedPolygon<N> {
     #[inline]
     #[must_use]
     pub fn sample(&self, u: [f32; 2]) -> Option<PolygonSample> {
-        let (sector, area) = self.pick(u[0].max(LOWEST) * self.total);
-        let meridian = sector.at(sector.fraction_at(area));
+        let (i, mut area) = self.pick(u[0].max(LOWEST) * self.total);
+        let (mut sector, mut whole) = (self.sector(i), self.areas[i]);
+        if sector.is_wide() {
+            (sector, area) = sector.half_at(area);
+            whole = sector.area();
+        }
+        let meridian = sector.at(sector.fraction_at(area, whole));
         let above = sector.height_of(&meridian, u[1].max(LOWEST));
         let v = meridian.outer + Vec3::Z * above;
-        let place = if sector.is_to_zenith() {
-            meridian.outer_place + self.zenith * (above / self.volume)
-        } else {
-            meridian.place(above)
-        };
+        let place =
+            if self.to_zenith { meridian.outer_place + self.zenith * above } else { meridian.place(above) };
         let length = num::sqrt(v.length_squared());
         let distance = length / place.z * self.unit;
         let wi = self.frame.to_world(v / length);
@@ -151,16 +160,18 @@ impl<const N: usize> ProjectedPolygon<N> {
 
     /// The sector in which the projected solid angle `area` ends, and what of it remains (sr).
     #[inline]
-    fn pick(&self, mut area: f32) -> (&Sector, f32) {
-        let mut picked = &self.sectors[0];
-        for sector in &self.sectors[1..self.len] {
-            if area < picked.area() {
-                break;
+    fn pick(&self, mut area: f32) -> (usize, f32) {
+        let mut picked = (0, 0.0);
+        for (i, part) in self.areas[..self.len].iter().copied().enumerate() {
+            if part > 0.0 {
+                picked = (i, area.min(part));
+                if area < part {
+                    break;
+                }
+                area -= part;
             }
-            area -= picked.area();
-            picked = sector;
         }
-        (picked, area.min(picked.area()))
+        picked
     }
 
     /// The uniforms for which [`ProjectedPolygon::sample`] draws the point at `place`, in the chart's
@@ -168,34 +179,46 @@ impl<const N: usize> ProjectedPolygon<N> {
     #[must_use]
     pub fn invert(&self, place: Vec2) -> [f32; 2] {
         let place = place.extend(1.0);
-        let azimuth = |a: Vec3, b: Vec3| self.zenith.dot(a.cross(b));
-        let mut before = 0.0;
-        for (i, sector) in self.sectors[..self.len].iter().enumerate() {
-            let from_first = azimuth(sector.first.outer_place, place);
-            let to_last = azimuth(place, sector.last.outer_place);
-            // In the last one at the latest, as far as rounding goes.
-            if (from_first >= 0.0 && to_last >= 0.0) || i + 1 == self.len {
-                let (a, b) = (from_first.max(0.0), to_last.max(0.0));
-                let t = if a + b > 0.0 { a / (a + b) } else { 0.0 };
-                let meridian = sector.at(t);
-                let share = (before + sector.area_to(t)) / self.total;
-                let above = if sector.is_to_zenith() {
-                    self.height_toward_zenith(&meridian, place)
-                } else {
-                    meridian.height(place)
-                };
-                let v = sector.share_below(&meridian, above);
-                return [share, v].map(|u| if u > 0.0 { u.min(num::ONE_MINUS_EPSILON) } else { 0.0 });
-            }
-            before += sector.area();
+        let (sector, before) = self.locate(place);
+        let from_first = self.azimuth(sector.first.outer_place, place).max(0.0);
+        let to_last = self.azimuth(place, sector.last.outer_place).max(0.0);
+        let sum = from_first + to_last;
+        let t = if sum > 0.0 { from_first / sum } else { 0.0 };
+        let meridian = sector.at(t);
+        let above =
+            if self.to_zenith { self.height_toward_zenith(&meridian, place) } else { meridian.height(place) };
+        let share = (before + sector.area_to(t)) / self.total;
+        [share, sector.share_below(&meridian, above)].map(num::clamp_unit)
+    }
+
+    /// The sector in which a place is, half of it when it is wide, and the area before that (sr).
+    fn locate(&self, place: Vec3) -> (Sector, f32) {
+        let is_before = |end: &Meridian| self.azimuth(place, end.outer_place) >= 0.0;
+        let is_inside = |i: &usize| {
+            self.azimuth(self.meridians[*i].outer_place, place) >= 0.0 && is_before(&self.meridians[i + 1])
+        };
+        let parts = || (0..self.len).filter(|i| self.areas[*i] > 0.0);
+        // In the last one at the latest, as far as rounding goes.
+        let i = parts().find(is_inside).or_else(|| parts().last()).unwrap_or(0);
+        let before = self.areas[..i].iter().sum();
+        let sector = self.sector(i);
+        if !sector.is_wide() {
+            return (sector, before);
         }
-        [0.0; 2]
+        let [first, last] = sector.halves();
+        if is_before(&first.last) { (first, before) } else { (last, before + first.area()) }
+    }
+
+    /// Cross product of the azimuths of two places, up to a factor.
+    #[inline]
+    fn azimuth(&self, a: Vec3, b: Vec3) -> f32 {
+        self.zenith.dot(a.cross(b))
     }
 
     /// The height above the outer end of a place between there and the zenith.
     #[inline]
     fn height_toward_zenith(&self, meridian: &Meridian, place: Vec3) -> f32 {
         let f = fraction(place, meridian.outer_place, self.zenith).min(num::ONE_MINUS_EPSILON);
-        f * meridian.outer_place.z * self.volume / ((1.0 - f) * self.zenith.z)
+        f * meridian.outer_place.z / ((1.0 - f) * self.zenith.z)
     }
 }

@@ -25,22 +25,9 @@ pub(super) struct Sector {
     sin2: f32,
     /// Square of the cross product of the inner chord's ends, less that of the outer chord's.
     inner_sin2: f32,
-    /// Projected solid angle (sr).
-    area: f32,
 }
 
 impl Sector {
-    pub(super) const ZERO: Self = Self {
-        first: Meridian::ZERO,
-        last: Meridian::ZERO,
-        pole: Vec3::ZERO,
-        to_zenith: false,
-        cos: 0.0,
-        sin2: 0.0,
-        inner_sin2: 0.0,
-        area: 0.0,
-    };
-
     /// The piece from `first` counter-clockwise to `last`.
     ///
     /// * `pole` – cross product of the outer ends; of their azimuth vectors, its z, above 0
@@ -51,16 +38,7 @@ impl Sector {
         let (qa, qb) = (first.square_rise(), last.square_rise());
         let mixed = first.rise * last.height_sum() + last.rise * first.height_sum();
         let inner_sin2 = eb.length_squared() * qa + ea.length_squared() * qb - ea.dot(eb) * mixed;
-        Self {
-            first,
-            last,
-            pole,
-            to_zenith,
-            cos: a.dot(b),
-            sin2: pole.length_squared(),
-            inner_sin2,
-            area: 0.0,
-        }
+        Self { first, last, pole, to_zenith, cos: a.dot(b), sin2: pole.length_squared(), inner_sin2 }
     }
 
     /// True when the outer arc is much beyond a right angle.
@@ -85,23 +63,25 @@ impl Sector {
         [half(self.first, middle), half(middle, self.last)]
     }
 
-    /// Works out the area.
-    #[inline]
-    pub(super) fn measure(&mut self) -> f32 {
-        self.area = self.area_to(1.0);
-        self.area
-    }
-
     /// Projected solid angle (sr).
     #[inline]
     pub(super) fn area(&self) -> f32 {
-        self.area
+        if self.is_wide() { self.area_of_halves() } else { self.area_within(&Fraction::whole(self)) }
     }
 
-    /// True when it reaches up to the zenith.
-    #[inline]
-    pub(super) fn is_to_zenith(&self) -> bool {
-        self.to_zenith
+    #[cold]
+    fn area_of_halves(&self) -> f32 {
+        let [first, last] = self.halves();
+        first.area() + last.area()
+    }
+
+    /// The half of a wide piece in which the projected solid angle `area` ends, and what of it remains
+    /// (sr).
+    #[cold]
+    pub(super) fn half_at(&self, area: f32) -> (Self, f32) {
+        let [first, last] = self.halves();
+        let middle = first.area();
+        if area < middle { (first, area) } else { (last, area - middle) }
     }
 
     /// The meridian at the fraction `t` of the chords.
@@ -150,25 +130,25 @@ impl Sector {
     /// difference of two such terms is one of divided differences.
     #[inline]
     pub(super) fn area_to(&self, t: f32) -> f32 {
-        let t2 = t * t;
-        let (cos, sin2) = (1.0 + t * (self.cos - 1.0), t2 * self.sin2);
-        let outer2 = cos * cos + sin2;
-        let outer = num::sqrt(outer2);
+        self.area_within(&Fraction::new(self, t))
+    }
+
+    #[inline]
+    fn area_within(&self, part: &Fraction) -> f32 {
+        let Fraction { t, cos, sin2, outer2, outer, rise, height_sum } = *part;
         let k_outer = cos + outer;
         let x_outer = sin2 / (k_outer * k_outer);
         if self.to_zenith {
             return self.pole.z * t * atan_ratio(x_outer) / k_outer;
         }
         let (da, sa) = (self.first.rise, self.first.height_sum());
-        let dt = da + t * (self.last.rise - da);
-        let st = sa + t * (self.last.height_sum() - sa);
-        let (qa, qt) = (da * sa, dt * st);
+        let (qa, qt) = (da * sa, rise * height_sum);
         let square = qa * outer2 + qt + qa * qt;
-        let k_rise = 0.5 * (da * st + dt * sa) + square / (num::sqrt(outer2 + square) + outer);
+        let k_rise = 0.5 * (da * height_sum + rise * sa) + square / (num::sqrt(outer2 + square) + outer);
         let k_inner = k_outer + k_rise;
         let per_k = 1.0 / k_inner;
         // N² / K² of the outer arc less that of the inner one.
-        let x_fall = (x_outer * k_rise * (k_inner + k_outer) - t2 * self.inner_sin2) * per_k * per_k;
+        let x_fall = (x_outer * k_rise * (k_inner + k_outer) - t * t * self.inner_sin2) * per_k * per_k;
         let (h, slope) = atan_ratio_and_slope(x_outer, (x_outer - x_fall).max(0.0));
         self.pole.z * t * per_k * (k_rise * h / k_outer + slope * x_fall)
     }
@@ -184,36 +164,86 @@ impl Sector {
 
     /// The fraction of the chords up to which the projected solid angle is `area` (sr).
     ///
-    /// Newton's method on [`Sector::area_to`] within a shrinking bracket, from where a strip that
-    /// grows evenly would be.
+    /// * `whole` – [`Sector::area`]
+    ///
+    /// Newton's method on [`Sector::area_to`] within a shrinking bracket.
     #[inline]
-    pub(super) fn fraction_at(&self, area: f32) -> f32 {
-        let (f0, f1) = (self.strip(&self.first), self.strip(&self.last));
-        let share = area / self.area;
-        let root = num::sqrt(f0 * f0 + share * (f1 - f0) * (f1 + f0));
-        let mut t = share * (f0 + f1) / (f0 + root);
+    pub(super) fn fraction_at(&self, area: f32, whole: f32) -> f32 {
+        let mut t = self.first_guess(area / whole, whole);
         let (mut low, mut high) = (0.0, 1.0);
+        let enough = TOLERANCE * whole * area.min(whole - area);
         for _ in 0..MAX_STEPS {
             if !(t >= low && t <= high) {
                 t = 0.5 * (low + high);
             }
             let error = self.area_to(t) - area;
-            if error.abs() <= TOLERANCE * self.area {
-                break;
-            }
             if error > 0.0 {
                 high = t;
             } else {
                 low = t;
             }
-            t -= error / self.strip(&self.at(t));
+            let next = t - error / self.strip(&self.at(t));
+            if error * error <= enough {
+                return if next >= low && next <= high { next } else { t };
+            }
+            t = next;
         }
-        t.clamp(0.0, 1.0)
+        if t >= low && t <= high { t } else { low }
+    }
+
+    /// Where the share `s` of the area ends, by the quotient of two quadratics that has the area's
+    /// values and derivatives at both ends.
+    ///
+    /// Source: Gregory and Delbourgo 1982, *Piecewise Rational Quadratic Interpolation to Monotonic
+    /// Data*, IMA J. Numer. Anal. 2(2), equation 3; derived: its inverse.
+    #[inline]
+    fn first_guess(&self, s: f32, whole: f32) -> f32 {
+        let r = 1.0 - s;
+        let per_whole = 1.0 / whole;
+        let (d0, d1) = (self.strip(&self.first) * per_whole, self.strip(&self.last) * per_whole);
+        let b = d0 * r + (2.0 - d1) * s;
+        let root = num::sqrt((b - 2.0 * s) * (b - 2.0 * s) + 4.0 * s * r);
+        if b > 0.0 { 2.0 * s / (b + root) } else { 0.5 * (root - b) / (1.0 - b) }
     }
 }
 
-/// Steps of Newton's method at most; two are common.
+/// What is known of the part of a piece up to a fraction `t` of the chords.
+#[derive(Debug, Clone, Copy)]
+struct Fraction {
+    t: f32,
+    /// Scalar product of the outer ends, and the square of their cross product.
+    cos: f32,
+    sin2: f32,
+    /// Square and length of the second outer end.
+    outer2: f32,
+    outer: f32,
+    /// The rise there, and the sum of both heights.
+    rise: f32,
+    height_sum: f32,
+}
+
+impl Fraction {
+    #[inline]
+    fn new(sector: &Sector, t: f32) -> Self {
+        let (da, sa) = (sector.first.rise, sector.first.height_sum());
+        let (cos, sin2) = (1.0 + t * (sector.cos - 1.0), t * t * sector.sin2);
+        let outer2 = cos * cos + sin2;
+        let rise = da + t * (sector.last.rise - da);
+        let height_sum = sa + t * (sector.last.height_sum() - sa);
+        Self { t, cos, sin2, outer2, outer: num::sqrt(outer2), rise, height_sum }
+    }
+
+    /// The whole piece.
+    #[inline]
+    fn whole(sector: &Sector) -> Self {
+        let Sector { cos, sin2, ref last, .. } = *sector;
+        Self { t: 1.0, cos, sin2, outer2: 1.0, outer: 1.0, rise: last.rise, height_sum: last.height_sum() }
+    }
+}
+
+/// Steps of Newton's method at most; one or two are common.
 const MAX_STEPS: usize = 16;
 
-/// Error of the inverted share: what [`Sector::area_to`] itself is good for.
+/// The square of an error in the share, over the smaller of the shares on both sides, from which one
+/// more step leaves less than a quarter of this. Derived: of a strip that grows from 0 evenly.
 const TOLERANCE: f32 = 4e-6;
