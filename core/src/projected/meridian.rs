@@ -1,6 +1,5 @@
 //! Meridians of a polygon: what it has at one azimuth.
 
-use super::clip::Corner;
 use glam::{DVec3, Vec3};
 
 /// The stretch of a meridian inside a polygon: between its outer boundary, nearer the horizon, and
@@ -20,9 +19,6 @@ pub(super) struct Meridian {
 }
 
 impl Meridian {
-    pub(super) const ZERO: Self =
-        Self { outer: Vec3::ZERO, rise: 0.0, outer_place: Vec3::ZERO, inner_place: Vec3::ZERO };
-
     #[inline]
     pub(super) fn times(self, k: f32) -> Self {
         Self {
@@ -90,32 +86,10 @@ pub(super) struct Cut {
 }
 
 impl Cut {
-    /// A corner alone.
-    #[inline]
-    pub(super) fn point(index: usize, corner: &Corner) -> Self {
-        let place = corner.homogeneous();
-        Self { corner: index, outer: corner.point, rise: 0.0, outer_place: place, inner_place: place }
-    }
-
     /// What brings the outer end to unit length (m⁻¹).
     #[inline]
     pub(super) fn scale(&self) -> f64 {
         1.0 / self.outer.length()
-    }
-
-    /// The same with the outer end a unit vector.
-    ///
-    /// * `scale` – [`Cut::scale`]
-    /// * `unit` – unit of length for the places (m)
-    #[inline]
-    pub(super) fn scaled(&self, scale: f64, unit: f64) -> Meridian {
-        let weight = (scale * unit) as f32;
-        Meridian {
-            outer: (self.outer * scale).as_vec3(),
-            rise: (self.rise * scale) as f32,
-            outer_place: self.outer_place * weight,
-            inner_place: self.inner_place * weight,
-        }
     }
 }
 

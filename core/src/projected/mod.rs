@@ -4,11 +4,13 @@ mod arc;
 mod chains;
 mod chart;
 mod clip;
+mod lanes;
 mod meridian;
 #[cfg(test)]
 pub(crate) mod oracle;
 mod polygon;
 mod sector;
+mod sectors;
 #[cfg(test)]
 mod tests;
 

@@ -1,13 +1,13 @@
 //! Sampling a convex polygon in proportion to the receiver's cosine.
 
 use super::Chart;
-use super::chains::Layout;
 use super::clip::Above;
-use super::meridian::{Cut, Meridian, fraction};
+use super::meridian::{Meridian, fraction};
 use super::sector::Sector;
+use super::sectors::Sectors;
 use crate::geom::Frame;
 use crate::num;
-use glam::{DVec3, Vec2, Vec3};
+use glam::{Vec2, Vec3};
 
 /// The part of a planar convex polygon above a receiver's horizon, ready to be sampled uniformly over
 /// its projected solid angle.
@@ -24,22 +24,9 @@ use glam::{DVec3, Vec2, Vec3};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProjectedPolygon<const N: usize> {
     frame: Frame,
-    /// Unit of length for places (m).
-    unit: f32,
     /// The zenith in homogeneous coordinates of the plane.
     zenith: Vec3,
-    /// True when the sectors reach up to the zenith.
-    to_zenith: bool,
-    /// The sectors' sides: that of index i is between the meridians i and i + 1.
-    meridians: [Meridian; N],
-    /// The sectors' poles, as in [`Sector::new`].
-    poles: [Vec3; N],
-    /// The sectors' areas (sr).
-    areas: [f32; N],
-    /// How many sectors there are.
-    len: usize,
-    /// Sum of the areas (sr).
-    total: f32,
+    sectors: Sectors<N>,
 }
 
 /// A direction toward a polygon, and where it meets it.
@@ -67,61 +54,20 @@ impl<const N: usize> ProjectedPolygon<N> {
     #[must_use]
     pub fn new(normal: Vec3, chart: &Chart, corners: &[Vec2]) -> Option<Self> {
         let above = Above::<N>::new(normal, chart, corners)?;
-        let polygon = match Layout::of(&above)? {
-            Layout::Around => Self::sweep(&above, true, above.around())?,
-            Layout::Beside(chains) => Self::sweep(&above, false, chains.meridians())?,
-        };
+        let sectors = Sectors::new(&above);
         // More than the hemisphere is rounding, of numbers too far apart for double precision.
-        (polygon.total > 0.0 && polygon.total < num::PI * 1.000_1).then_some(polygon)
-    }
-
-    /// The sectors between meridians, which come in the order of their azimuth.
-    #[inline]
-    fn sweep(above: &Above<N>, to_zenith: bool, mut cuts: impl Iterator<Item = Cut>) -> Option<Self> {
-        let mut before = cuts.next()?;
-        let mut scale = before.scale();
-        let unit = 1.0 / scale;
-        let mut polygon = Self {
-            frame: above.frame,
-            unit: unit as f32,
-            zenith: (above.zenith * (unit / above.volume)).as_vec3(),
-            to_zenith,
-            meridians: [Meridian::ZERO; N],
-            poles: [Vec3::ZERO; N],
-            areas: [0.0; N],
-            len: 0,
-            total: 0.0,
-        };
-        let mut first = before.scaled(scale, unit);
-        polygon.meridians[0] = first;
-        for cut in cuts.take(N - 1) {
-            let cut_scale = cut.scale();
-            let last = cut.scaled(cut_scale, unit);
-            let width = above.azimuth_between(before.corner, cut.corner);
-            if width > 0.0 {
-                let pole = DVec3 { z: width, ..before.outer.cross(cut.outer) } * (scale * cut_scale);
-                polygon.poles[polygon.len] = pole.as_vec3();
-                let area = Sector::new(first, last, pole.as_vec3(), to_zenith).area();
-                polygon.areas[polygon.len] = area;
-                polygon.total += area;
-            }
-            polygon.len += 1;
-            polygon.meridians[polygon.len] = last;
-            (before, scale, first) = (cut, cut_scale, last);
+        if !(sectors.total > 0.0 && sectors.total < num::PI * 1.000_1) {
+            return None;
         }
-        Some(polygon)
-    }
-
-    #[inline]
-    fn sector(&self, i: usize) -> Sector {
-        Sector::new(self.meridians[i], self.meridians[i + 1], self.poles[i], self.to_zenith)
+        let zenith = (above.zenith * (f64::from(sectors.unit) / above.volume)).as_vec3();
+        Some(Self { frame: above.frame, zenith, sectors })
     }
 
     /// The projected solid angle (sr), above 0 and at most π.
     #[inline]
     #[must_use]
     pub fn projected_solid_angle(&self) -> f32 {
-        self.total
+        self.sectors.total
     }
 
     /// Density of the unit direction `wi`, which meets the polygon: `cos θ / E` (sr⁻¹); `None` below the
@@ -129,7 +75,7 @@ impl<const N: usize> ProjectedPolygon<N> {
     #[inline]
     #[must_use]
     pub fn pdf_solid_angle(&self, wi: Vec3) -> Option<f32> {
-        let pdf = self.frame.n.dot(wi) / self.total;
+        let pdf = self.frame.n.dot(wi) / self.sectors.total;
         (pdf > 0.0 && pdf < f32::INFINITY).then_some(pdf)
     }
 
@@ -139,19 +85,21 @@ impl<const N: usize> ProjectedPolygon<N> {
     #[inline]
     #[must_use]
     pub fn sample(&self, u: [f32; 2]) -> Option<PolygonSample> {
-        let (i, mut area) = self.pick(u[0].max(LOWEST) * self.total);
-        let (mut sector, mut whole) = (self.sector(i), self.areas[i]);
+        let (i, mut area) = self.pick(u[0].max(LOWEST) * self.sectors.total);
+        let (mut sector, mut whole) = (self.sectors.get(i), self.sectors.areas()[i]);
         if sector.is_wide() {
-            (sector, area) = sector.half_at(area);
-            whole = sector.area();
+            (sector, area, whole) = sector.half_at(area);
         }
         let meridian = sector.at(sector.fraction_at(area, whole));
         let above = sector.height_of(&meridian, u[1].max(LOWEST));
         let v = meridian.outer + Vec3::Z * above;
-        let place =
-            if self.to_zenith { meridian.outer_place + self.zenith * above } else { meridian.place(above) };
+        let place = if self.sectors.to_zenith {
+            meridian.outer_place + self.zenith * above
+        } else {
+            meridian.place(above)
+        };
         let length = num::sqrt(v.length_squared());
-        let distance = length / place.z * self.unit;
+        let distance = length / place.z * self.sectors.unit;
         let wi = self.frame.to_world(v / length);
         let place = place.truncate() / place.z;
         (distance > 0.0 && distance < f32::INFINITY && wi.is_finite() && place.is_finite())
@@ -162,7 +110,7 @@ impl<const N: usize> ProjectedPolygon<N> {
     #[inline]
     fn pick(&self, mut area: f32) -> (usize, f32) {
         let mut picked = (0, 0.0);
-        for (i, part) in self.areas[..self.len].iter().copied().enumerate() {
+        for (i, part) in self.sectors.areas().iter().copied().enumerate() {
             if part > 0.0 {
                 picked = (i, area.min(part));
                 if area < part {
@@ -185,9 +133,12 @@ impl<const N: usize> ProjectedPolygon<N> {
         let sum = from_first + to_last;
         let t = if sum > 0.0 { from_first / sum } else { 0.0 };
         let meridian = sector.at(t);
-        let above =
-            if self.to_zenith { self.height_toward_zenith(&meridian, place) } else { meridian.height(place) };
-        let share = (before + sector.area_to(t)) / self.total;
+        let above = if self.sectors.to_zenith {
+            self.height_toward_zenith(&meridian, place)
+        } else {
+            meridian.height(place)
+        };
+        let share = (before + sector.area_to(t)) / self.sectors.total;
         [share, sector.share_below(&meridian, above)].map(num::clamp_unit)
     }
 
@@ -195,18 +146,20 @@ impl<const N: usize> ProjectedPolygon<N> {
     fn locate(&self, place: Vec3) -> (Sector, f32) {
         let is_before = |end: &Meridian| self.azimuth(place, end.outer_place) >= 0.0;
         let is_inside = |i: &usize| {
-            self.azimuth(self.meridians[*i].outer_place, place) >= 0.0 && is_before(&self.meridians[i + 1])
+            let from = self.sectors.meridian(*i).outer_place;
+            self.azimuth(from, place) >= 0.0 && is_before(&self.sectors.meridian(i + 1))
         };
-        let parts = || (0..self.len).filter(|i| self.areas[*i] > 0.0);
+        let areas = self.sectors.areas();
+        let parts = || (0..areas.len()).filter(|i| areas[*i] > 0.0);
         // In the last one at the latest, as far as rounding goes.
         let i = parts().find(is_inside).or_else(|| parts().last()).unwrap_or(0);
-        let before = self.areas[..i].iter().sum();
-        let sector = self.sector(i);
+        let before = areas[..i].iter().sum();
+        let sector = self.sectors.get(i);
         if !sector.is_wide() {
             return (sector, before);
         }
         let [first, last] = sector.halves();
-        if is_before(&first.last) { (first, before) } else { (last, before + first.area()) }
+        if is_before(&first.last) { (first, before) } else { (last, before + first.area_to(1.0)) }
     }
 
     /// Cross product of the azimuths of two places, up to a factor.

@@ -44,7 +44,7 @@ impl Sector {
     /// True when the outer arc is much beyond a right angle.
     #[inline]
     pub(super) fn is_wide(&self) -> bool {
-        self.cos < -0.1
+        self.cos < WIDE
     }
 
     /// Both halves of a wide piece; they are not wide.
@@ -63,25 +63,19 @@ impl Sector {
         [half(self.first, middle), half(middle, self.last)]
     }
 
-    /// Projected solid angle (sr).
-    #[inline]
-    pub(super) fn area(&self) -> f32 {
-        if self.is_wide() { self.area_of_halves() } else { self.area_within(&Fraction::whole(self)) }
+    /// Projected solid angle of a wide piece (sr).
+    #[cold]
+    pub(super) fn area_of_halves(&self) -> f32 {
+        self.halves().iter().map(|half| half.area_to(1.0)).sum()
     }
 
+    /// The half of a wide piece in which the projected solid angle `area` ends, what of it remains
+    /// (sr), and that of the half (sr).
     #[cold]
-    fn area_of_halves(&self) -> f32 {
+    pub(super) fn half_at(&self, area: f32) -> (Self, f32, f32) {
         let [first, last] = self.halves();
-        first.area() + last.area()
-    }
-
-    /// The half of a wide piece in which the projected solid angle `area` ends, and what of it remains
-    /// (sr).
-    #[cold]
-    pub(super) fn half_at(&self, area: f32) -> (Self, f32) {
-        let [first, last] = self.halves();
-        let middle = first.area();
-        if area < middle { (first, area) } else { (last, area - middle) }
+        let middle = first.area_to(1.0);
+        if area < middle { (first, area, middle) } else { (last, area - middle, last.area_to(1.0)) }
     }
 
     /// The meridian at the fraction `t` of the chords.
@@ -130,25 +124,25 @@ impl Sector {
     /// difference of two such terms is one of divided differences.
     #[inline]
     pub(super) fn area_to(&self, t: f32) -> f32 {
-        self.area_within(&Fraction::new(self, t))
-    }
-
-    #[inline]
-    fn area_within(&self, part: &Fraction) -> f32 {
-        let Fraction { t, cos, sin2, outer2, outer, rise, height_sum } = *part;
+        let t2 = t * t;
+        let (cos, sin2) = (1.0 + t * (self.cos - 1.0), t2 * self.sin2);
+        let outer2 = cos * cos + sin2;
+        let outer = num::sqrt(outer2);
         let k_outer = cos + outer;
         let x_outer = sin2 / (k_outer * k_outer);
         if self.to_zenith {
             return self.pole.z * t * atan_ratio(x_outer) / k_outer;
         }
         let (da, sa) = (self.first.rise, self.first.height_sum());
-        let (qa, qt) = (da * sa, rise * height_sum);
+        let dt = da + t * (self.last.rise - da);
+        let st = sa + t * (self.last.height_sum() - sa);
+        let (qa, qt) = (da * sa, dt * st);
         let square = qa * outer2 + qt + qa * qt;
-        let k_rise = 0.5 * (da * height_sum + rise * sa) + square / (num::sqrt(outer2 + square) + outer);
+        let k_rise = 0.5 * (da * st + dt * sa) + square / (num::sqrt(outer2 + square) + outer);
         let k_inner = k_outer + k_rise;
         let per_k = 1.0 / k_inner;
         // N² / K² of the outer arc less that of the inner one.
-        let x_fall = (x_outer * k_rise * (k_inner + k_outer) - t * t * self.inner_sin2) * per_k * per_k;
+        let x_fall = (x_outer * k_rise * (k_inner + k_outer) - t2 * self.inner_sin2) * per_k * per_k;
         let (h, slope) = atan_ratio_and_slope(x_outer, (x_outer - x_fall).max(0.0));
         self.pole.z * t * per_k * (k_rise * h / k_outer + slope * x_fall)
     }
@@ -164,7 +158,7 @@ impl Sector {
 
     /// The fraction of the chords up to which the projected solid angle is `area` (sr).
     ///
-    /// * `whole` – [`Sector::area`]
+    /// * `whole` – that of the whole (sr)
     ///
     /// Newton's method on [`Sector::area_to`] within a shrinking bracket.
     #[inline]
@@ -207,39 +201,9 @@ impl Sector {
     }
 }
 
-/// What is known of the part of a piece up to a fraction `t` of the chords.
-#[derive(Debug, Clone, Copy)]
-struct Fraction {
-    t: f32,
-    /// Scalar product of the outer ends, and the square of their cross product.
-    cos: f32,
-    sin2: f32,
-    /// Square and length of the second outer end.
-    outer2: f32,
-    outer: f32,
-    /// The rise there, and the sum of both heights.
-    rise: f32,
-    height_sum: f32,
-}
-
-impl Fraction {
-    #[inline]
-    fn new(sector: &Sector, t: f32) -> Self {
-        let (da, sa) = (sector.first.rise, sector.first.height_sum());
-        let (cos, sin2) = (1.0 + t * (sector.cos - 1.0), t * t * sector.sin2);
-        let outer2 = cos * cos + sin2;
-        let rise = da + t * (sector.last.rise - da);
-        let height_sum = sa + t * (sector.last.height_sum() - sa);
-        Self { t, cos, sin2, outer2, outer: num::sqrt(outer2), rise, height_sum }
-    }
-
-    /// The whole piece.
-    #[inline]
-    fn whole(sector: &Sector) -> Self {
-        let Sector { cos, sin2, ref last, .. } = *sector;
-        Self { t: 1.0, cos, sin2, outer2: 1.0, outer: 1.0, rise: last.rise, height_sum: last.height_sum() }
-    }
-}
+/// The cosine of the outer arc from which a piece is wide: just beyond a right angle, as those of a
+/// square are about its middle.
+pub(super) const WIDE: f32 = -0.1;
 
 /// Steps of Newton's method at most; one or two are common.
 const MAX_STEPS: usize = 16;
