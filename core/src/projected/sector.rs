@@ -124,9 +124,21 @@ impl Sector {
     /// difference of two such terms is one of divided differences.
     #[inline]
     pub(super) fn area_to(&self, t: f32) -> f32 {
-        let t2 = t * t;
-        let (cos, sin2) = (1.0 + t * (self.cos - 1.0), t2 * self.sin2);
-        let outer2 = cos * cos + sin2;
+        self.area_of(&self.part(t))
+    }
+
+    #[inline]
+    fn part(&self, t: f32) -> Part {
+        let (cos, sin2) = (1.0 + t * (self.cos - 1.0), t * t * self.sin2);
+        let (da, sa) = (self.first.rise, self.first.height_sum());
+        let rise = da + t * (self.last.rise - da);
+        let height_sum = sa + t * (self.last.height_sum() - sa);
+        Part { t, cos, sin2, outer2: cos * cos + sin2, rise, height_sum, square: rise * height_sum }
+    }
+
+    #[inline]
+    fn area_of(&self, part: &Part) -> f32 {
+        let Part { t, cos, sin2, outer2, rise, height_sum, square: qt } = *part;
         let outer = num::sqrt(outer2);
         let k_outer = cos + outer;
         let x_outer = sin2 / (k_outer * k_outer);
@@ -134,50 +146,61 @@ impl Sector {
             return self.pole.z * t * atan_ratio(x_outer) / k_outer;
         }
         let (da, sa) = (self.first.rise, self.first.height_sum());
-        let dt = da + t * (self.last.rise - da);
-        let st = sa + t * (self.last.height_sum() - sa);
-        let (qa, qt) = (da * sa, dt * st);
+        let qa = da * sa;
         let square = qa * outer2 + qt + qa * qt;
-        let k_rise = 0.5 * (da * st + dt * sa) + square / (num::sqrt(outer2 + square) + outer);
+        let k_rise = 0.5 * (da * height_sum + rise * sa) + square / (num::sqrt(outer2 + square) + outer);
         let k_inner = k_outer + k_rise;
         let per_k = 1.0 / k_inner;
         // N² / K² of the outer arc less that of the inner one.
-        let x_fall = (x_outer * k_rise * (k_inner + k_outer) - t2 * self.inner_sin2) * per_k * per_k;
+        let x_fall = (x_outer * k_rise * (k_inner + k_outer) - t * t * self.inner_sin2) * per_k * per_k;
         let (h, slope) = atan_ratio_and_slope(x_outer, (x_outer - x_fall).max(0.0));
         self.pole.z * t * per_k * (k_rise * h / k_outer + slope * x_fall)
     }
 
-    /// Derivative of [`Sector::area_to`]: the area of the strip at `meridian`.
+    /// Derivative of [`Sector::area_to`], the area of the strip there; and half of its own over it.
     #[inline]
-    fn strip(&self, meridian: &Meridian) -> f32 {
-        let outer2 = meridian.outer.length_squared();
-        let rise =
-            if self.to_zenith { 1.0 } else { meridian.square_rise() / (outer2 + meridian.square_rise()) };
-        0.5 * self.pole.z * rise / outer2
+    fn strip(&self, part: &Part) -> (f32, f32) {
+        let Part { t, outer2, rise, height_sum, square, .. } = *part;
+        // Half the derivatives of the squares.
+        let outer_slope = (t + t - 1.0) * (1.0 - self.cos);
+        if self.to_zenith {
+            let per = 1.0 / outer2;
+            return (0.5 * self.pole.z * per, -outer_slope * per);
+        }
+        let height_slope = self.last.height_sum() - self.first.height_sum();
+        let slope = 0.5 * ((self.last.rise - self.first.rise) * height_sum + rise * height_slope);
+        let inner2 = outer2 + square;
+        let both = outer2 * inner2;
+        let growth = slope * both - square * (outer_slope * (outer2 + inner2) + slope * outer2);
+        (0.5 * self.pole.z * square / both, growth / (square * both))
     }
 
     /// The fraction of the chords up to which the projected solid angle is `area` (sr).
     ///
     /// * `whole` – that of the whole (sr)
     ///
-    /// Newton's method on [`Sector::area_to`] within a shrinking bracket.
+    /// Halley's method on [`Sector::area_to`] within a shrinking bracket.
     #[inline]
     pub(super) fn fraction_at(&self, area: f32, whole: f32) -> f32 {
         let mut t = self.first_guess(area / whole, whole);
         let (mut low, mut high) = (0.0, 1.0);
-        let enough = TOLERANCE * whole * area.min(whole - area);
+        let smaller = area.min(whole - area);
+        let enough = TOLERANCE * whole * smaller * smaller;
         for _ in 0..MAX_STEPS {
             if !(t >= low && t <= high) {
                 t = 0.5 * (low + high);
             }
-            let error = self.area_to(t) - area;
+            let part = self.part(t);
+            let error = self.area_of(&part) - area;
             if error > 0.0 {
                 high = t;
             } else {
                 low = t;
             }
-            let next = t - error / self.strip(&self.at(t));
-            if error * error <= enough {
+            let (strip, growth) = self.strip(&part);
+            let step = error / strip;
+            let next = t - step / (1.0 - step * growth);
+            if error.abs() * error * error <= enough {
                 return if next >= low && next <= high { next } else { t };
             }
             t = next;
@@ -193,21 +216,42 @@ impl Sector {
     #[inline]
     fn first_guess(&self, s: f32, whole: f32) -> f32 {
         let r = 1.0 - s;
-        let per_whole = 1.0 / whole;
-        let (d0, d1) = (self.strip(&self.first) * per_whole, self.strip(&self.last) * per_whole);
+        let per_whole = 0.5 * self.pole.z / whole;
+        // As in `strip`, where the outer end is a unit vector.
+        let strip = |end: &Meridian| {
+            let square = end.square_rise();
+            if self.to_zenith { per_whole } else { per_whole * square / (1.0 + square) }
+        };
+        let (d0, d1) = (strip(&self.first), strip(&self.last));
         let b = d0 * r + (2.0 - d1) * s;
         let root = num::sqrt((b - 2.0 * s) * (b - 2.0 * s) + 4.0 * s * r);
         if b > 0.0 { 2.0 * s / (b + root) } else { 0.5 * (root - b) / (1.0 - b) }
     }
 }
 
+/// What is known of a piece up to a fraction of its chords.
+#[derive(Debug, Clone, Copy)]
+struct Part {
+    /// The fraction.
+    t: f32,
+    /// Scalar product of the outer ends, and square of their cross product.
+    cos: f32,
+    sin2: f32,
+    /// Square of the second outer end.
+    outer2: f32,
+    /// The second meridian's rise, the sum of its heights, and the product of these.
+    rise: f32,
+    height_sum: f32,
+    square: f32,
+}
+
 /// The cosine of the outer arc from which a piece is wide: just beyond a right angle, as those of a
 /// square are about its middle.
 pub(super) const WIDE: f32 = -0.1;
 
-/// Steps of Newton's method at most; one or two are common.
+/// Steps of Halley's method at most; one or two are common.
 const MAX_STEPS: usize = 16;
 
-/// The square of an error in the share, over the smaller of the shares on both sides, from which one
-/// more step leaves less than a quarter of this. Derived: of a strip that grows from 0 evenly.
-const TOLERANCE: f32 = 4e-6;
+/// The cube of an error in the share, over the square of the smaller of the shares on both sides, from
+/// which one more step leaves 2e-6 at most.
+const TOLERANCE: f32 = 1e-5;
