@@ -64,7 +64,7 @@ impl<const N: usize> Above<N> {
         if !(lowest > 0.0) {
             above.clip();
         }
-        (above.len > 2).then_some(above)
+        if above.len > 2 { Some(above) } else { None }
     }
 
     /// Keeps what is above the horizon.

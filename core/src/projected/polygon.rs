@@ -54,13 +54,12 @@ impl<const N: usize> ProjectedPolygon<N> {
     #[must_use]
     pub fn new(normal: Vec3, chart: &Chart, corners: &[Vec2]) -> Option<Self> {
         let above = Above::<N>::new(normal, chart, corners)?;
-        let sectors = Sectors::new(&above);
+        let mut polygon = Self { frame: above.frame, zenith: Vec3::ZERO, sectors: Sectors::EMPTY };
+        polygon.sectors.fill(&above);
+        let Sectors { total, unit, .. } = polygon.sectors;
+        polygon.zenith = (above.zenith * (f64::from(unit) / above.volume)).as_vec3();
         // More than the hemisphere is rounding, of numbers too far apart for double precision.
-        if !(sectors.total > 0.0 && sectors.total < num::PI * 1.000_1) {
-            return None;
-        }
-        let zenith = (above.zenith * (f64::from(sectors.unit) / above.volume)).as_vec3();
-        Some(Self { frame: above.frame, zenith, sectors })
+        if total > 0.0 && total < num::PI * 1.000_1 { Some(polygon) } else { None }
     }
 
     /// The projected solid angle (sr), above 0 and at most π.

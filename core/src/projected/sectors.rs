@@ -39,26 +39,26 @@ struct Reached {
 }
 
 impl<const N: usize> Sectors<N> {
-    /// Without any area for a polygon that rounding has turned inside out, or that has no width.
+    pub(super) const EMPTY: Self = Self {
+        to_zenith: false,
+        len: 0,
+        unit: 0.0,
+        total: 0.0,
+        areas: [0.0; N],
+        poles: [[0.0; N]; 3],
+        outer: [[0.0; N]; 3],
+        rises: [0.0; N],
+        places: [[Vec3::ZERO; 2]; N],
+    };
+
+    /// Adds those of a polygon; none when rounding has turned it inside out, or it has no width.
     #[inline(always)]
-    pub(super) fn new(above: &Above<N>) -> Self {
-        let mut sectors = Self {
-            to_zenith: false,
-            len: 0,
-            unit: 0.0,
-            total: 0.0,
-            areas: [0.0; N],
-            poles: [[0.0; N]; 3],
-            outer: [[0.0; N]; 3],
-            rises: [0.0; N],
-            places: [[Vec3::ZERO; 2]; N],
-        };
+    pub(super) fn fill(&mut self, above: &Above<N>) {
         if let Some(layout) = Layout::of(above) {
-            sectors.to_zenith = layout.is_around();
-            sectors.sweep(above, layout);
-            sectors.measure();
+            self.to_zenith = layout.is_around();
+            self.sweep(above, layout);
+            self.measure();
         }
-        sectors
     }
 
     #[inline(always)]
