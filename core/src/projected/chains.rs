@@ -159,11 +159,12 @@ impl<const N: usize> Above<N> {
     pub(super) fn cut(&self, step: &Step) -> Cut {
         let Step { corner, edge: [i, j], outward } = *step;
         let corners = self.corners();
-        let (a, b, c) = (&corners[i], &corners[j], &corners[corner]);
+        let c = &corners[corner];
         let place = c.homogeneous();
         if corner == i || corner == j {
             return Cut { corner, outer: c.point, rise: 0.0, outer_place: place, inner_place: place };
         }
+        let (a, b) = (&corners[i], &corners[j]);
         let per_width = 1.0 / self.azimuth(a, b);
         let wa = self.azimuth(c, b).max(0.0) * per_width;
         let wb = self.azimuth(a, c).max(0.0) * per_width;

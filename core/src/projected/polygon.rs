@@ -101,7 +101,7 @@ impl<const N: usize> ProjectedPolygon<N> {
         let distance = length / place.z * self.sectors.unit;
         let wi = self.frame.to_world(v / length);
         let place = place.truncate() / place.z;
-        (distance > 0.0 && distance < f32::INFINITY && wi.is_finite() && place.is_finite())
+        (distance > 0.0 && distance < f32::INFINITY && (wi.element_sum() + place.element_sum()).is_finite())
             .then_some(PolygonSample { wi, distance, place })
     }
 

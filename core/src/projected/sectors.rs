@@ -70,9 +70,8 @@ impl<const N: usize> Sectors<N> {
         let mut before = Reached { corner: cut.corner, outer: cut.outer * scale, scale };
         self.unit = unit as f32;
         self.put(0, &cut, &before, 1.0);
-        while self.len + 1 < N
-            && let Some(step) = layout.advance(above)
-        {
+        for i in 0..N - 1 {
+            let Some(step) = layout.advance(above) else { break };
             let cut = above.cut(&step);
             let scale = cut.scale();
             let here = Reached { corner: cut.corner, outer: cut.outer * scale, scale };
@@ -81,11 +80,11 @@ impl<const N: usize> Sectors<N> {
                 let z = width * before.scale * scale;
                 let pole = DVec3 { z, ..before.outer.cross(here.outer) };
                 for (values, value) in self.poles.iter_mut().zip(pole.as_vec3().to_array()) {
-                    values[self.len] = value;
+                    values[i] = value;
                 }
             }
-            self.len += 1;
-            self.put(self.len, &cut, &here, (scale * unit) as f32);
+            self.len = i + 1;
+            self.put(i + 1, &cut, &here, (scale * unit) as f32);
             before = here;
         }
     }
