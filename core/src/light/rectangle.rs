@@ -11,7 +11,7 @@ use crate::solid_angle::{RectanglePlace, SphericalRectangle};
 use glam::{Vec2, Vec3};
 
 impl SampledShape for Rectangle {
-    type View = View<Self, RectangleSolidAngle, ProjectedView<Self, 8>>;
+    type View = View<Self, RectangleSolidAngle, ProjectedView<Self, 6>>;
 
     /// Density `1 / (w h)` (m⁻²).
     #[inline]
@@ -47,7 +47,7 @@ impl SampledShape for Rectangle {
     }
 
     fn projected_solid_angle(&self, from: &Receiver, sides: Sides) -> Option<f32> {
-        Some(flat_projected_solid_angle::<_, 8>(self, from, sides))
+        Some(flat_projected_solid_angle::<_, 6>(self, from, sides))
     }
 }
 
@@ -88,7 +88,7 @@ impl Local {
     /// three digits of the height, and of a corner near the foot none.
     #[inline(always)]
     fn new(shape: &Rectangle, chart: &Chart) -> Self {
-        let Chart { origin, u, v } = *chart;
+        let Chart { origin, u, v, .. } = *chart;
         let (uu, vv) = (u.length_squared(), v.length_squared());
         let (per_u, per_v) = (1.0 / libm::sqrt(uu), 1.0 / libm::sqrt(vv));
         let below = u.cross(v).dot(origin) * (per_u * per_v);
