@@ -30,6 +30,10 @@ pub(super) struct Sectors<const N: usize> {
     places: [[Vec3; 2]; N],
 }
 
+/// The rise beyond which an inner end is as good as at the zenith: what is left out there is less
+/// than its inverse square of the meridian's `sin² θ`, and squares of products stay finite.
+const HIGH: f64 = 1e7;
+
 /// The side that a sweep has reached.
 #[derive(Debug, Clone, Copy)]
 struct Reached {
@@ -95,8 +99,11 @@ impl<const N: usize> Sectors<N> {
         for (values, value) in self.outer.iter_mut().zip(reached.outer.as_vec3().to_array()) {
             values[i] = value;
         }
-        self.rises[i] = (cut.rise * reached.scale) as f32;
-        self.places[i] = [cut.outer_place * weight, cut.inner_place * weight];
+        let rise = cut.rise * reached.scale;
+        let kept = if rise > HIGH { HIGH / rise } else { 1.0 };
+        let inner_place = cut.outer_place.lerp(cut.inner_place, kept as f32);
+        self.rises[i] = (rise * kept) as f32;
+        self.places[i] = [cut.outer_place * weight, inner_place * weight];
     }
 
     /// Works out the areas.

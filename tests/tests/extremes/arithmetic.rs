@@ -183,5 +183,5 @@ fn row_60_the_functions_have_the_same_bits_everywhere() {
             .chain([num::ln(x + 1e-6), num::ln_1p(x)])
             .for_each(&mut take);
     }
-    assert_eq!(hash, 1_663_432_200, "the bits of a function have changed");
+    assert_eq!(hash, 825_370_836, "the bits of a function have changed");
 }

@@ -119,7 +119,7 @@ fn samples<S: SampledShape>(light: &AreaLight<S>, case: &Case) -> Verdict {
     ensure!((queried / pdf - 1.0).abs() <= 1e-5, "density {queried} when queried, {pdf} when sampled");
     let off = (case.from.point + sample.wi * sample.distance - drawn.at.point).length();
     let reach = case.reach.max(sample.distance);
-    ensure!(off <= 64.0 * UNIT_ROUND_OFF * reach, "the way ends {off} beside {:?}", drawn.at);
+    ensure!(off <= 512.0 * UNIT_ROUND_OFF * reach, "the way ends {off} beside {:?}", drawn.at);
     Ok(())
 }
 
