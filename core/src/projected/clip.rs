@@ -39,13 +39,10 @@ pub(super) struct Above<const N: usize> {
 }
 
 impl<const N: usize> Above<N> {
-    /// `None` when nothing is above the horizon, or the receiver is in the plane.
+    /// Fewer than three corners when nothing is above the horizon, none when the receiver is in the plane.
     #[inline]
-    pub(super) fn new(normal: Vec3, chart: &Chart, places: &[Vec2]) -> Option<Self> {
+    pub(super) fn new(normal: Vec3, chart: &Chart, places: &[Vec2]) -> Self {
         let (turned, volume) = (chart.volume() < 0.0, chart.volume().abs());
-        if !(volume > 0.0 && volume < f64::INFINITY) {
-            return None;
-        }
         let mut frame = Frame::from_normal(normal);
         frame.t = if turned { -frame.t } else { frame.t };
         let (s, t, n) = (frame.s.as_dvec3(), frame.t.as_dvec3(), frame.n.as_dvec3());
@@ -54,6 +51,9 @@ impl<const N: usize> Above<N> {
         let across = |a: DVec3, b: DVec3| a.truncate().perp_dot(b.truncate());
         let zenith = DVec3::new(across(v, r), across(r, u), across(u, v));
         let mut above = Self { frame, volume, zenith, corners: [Corner::ZERO; N], len: 0 };
+        if !(volume > 0.0 && volume < f64::INFINITY) {
+            return above;
+        }
         let mut lowest = f64::INFINITY;
         for place in places {
             let place = place.as_dvec2();
@@ -64,7 +64,7 @@ impl<const N: usize> Above<N> {
         if !(lowest > 0.0) {
             above.clip();
         }
-        if above.len > 2 { Some(above) } else { None }
+        above
     }
 
     /// Keeps what is above the horizon.

@@ -53,7 +53,10 @@ impl<const N: usize> ProjectedPolygon<N> {
     #[inline]
     #[must_use]
     pub fn new(normal: Vec3, chart: &Chart, corners: &[Vec2]) -> Option<Self> {
-        let above = Above::<N>::new(normal, chart, corners)?;
+        let above = Above::<N>::new(normal, chart, corners);
+        if above.corners().len() < 3 {
+            return None;
+        }
         let mut polygon = Self { frame: above.frame, zenith: Vec3::ZERO, sectors: Sectors::EMPTY };
         polygon.sectors.fill(&above);
         let Sectors { total, unit, .. } = polygon.sectors;

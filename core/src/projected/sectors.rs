@@ -43,6 +43,7 @@ struct Reached {
 }
 
 impl<const N: usize> Sectors<N> {
+    /// None.
     pub(super) const EMPTY: Self = Self {
         to_zenith: false,
         len: 0,
@@ -119,8 +120,11 @@ impl<const N: usize> Sectors<N> {
     fn measure_four(&mut self, i: usize) {
         let pole = self.poles.each_ref().map(|p| four(p, i));
         let (cos, areas) = lanes::areas(&self.ends(i), &self.ends(i + 1), pole, self.to_zenith);
-        for (k, area) in areas.to_array().into_iter().enumerate().take(self.len - i) {
-            self.areas[i + k] = area;
+        // Beyond the end the poles are 0, and so are the areas.
+        let areas = areas.to_array();
+        match self.areas.get_mut(i..i + 4) {
+            Some(all) => all.copy_from_slice(&areas),
+            None => self.areas.iter_mut().skip(i).zip(areas).for_each(|(slot, area)| *slot = area),
         }
         if cos.min_element() < WIDE {
             self.measure_wide(i);
