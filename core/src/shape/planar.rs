@@ -13,8 +13,10 @@ pub(super) struct Planar {
     pub(super) axis_v: Vec3,
 }
 
-/// How far from a right angle two axes may be: round-off of a rotation in single precision.
-const ORTHOGONAL: f32 = 1e-4;
+/// How far from a right angle two axes may be (rad): round-off of some twenty rotations, of
+/// 1e-6 each, in single precision, and twice what the loaders call one. Densities over solid angle are
+/// off by as much.
+const ORTHOGONAL: f32 = 2e-5;
 
 impl Planar {
     pub(super) fn new(centre: Vec3, axis_u: Vec3, axis_v: Vec3) -> Result<Self, ShapeError> {
