@@ -27,6 +27,13 @@ pub fn sqrt(x: f32) -> f32 {
     libm::sqrtf(if x > 0.0 { x } else { 0.0 })
 }
 
+/// Square root in double precision; NaN below 0.
+#[inline]
+#[must_use]
+pub fn sqrt_in_double(x: f64) -> f64 {
+    libm::sqrt(x)
+}
+
 /// `x` in `[0, 1)`: the nearest there, and 0 for NaN.
 #[inline]
 #[must_use]

@@ -49,6 +49,15 @@ pub(super) fn faces(chart: &Chart, sides: Sides) -> bool {
     volume < 0.0 || (sides == Sides::Both && volume > 0.0)
 }
 
+/// True where a direction says better than the coordinates of a point of a flat light where in the
+/// light's plane it is: the rounding of the coordinates moves it farther than that of the direction.
+///
+/// * `distance` – from the receiver (m)
+#[inline]
+pub(super) fn is_near(at: &SurfacePoint, wi: Vec3, distance: f32) -> bool {
+    at.point.abs().max_element() * at.normal.dot(wi).abs() > distance
+}
+
 /// Projected solid angle of what `from` sees of the emitting sides above its horizon (sr).
 pub(super) fn flat_projected_solid_angle<S: FlatShape, const N: usize>(
     shape: &S,
