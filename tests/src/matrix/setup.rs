@@ -6,7 +6,7 @@ use super::examine::examine;
 use crate::lights::Specimen;
 use halflight::glam::{DMat3, DQuat, DVec3, Vec3};
 use halflight::light::Receiver;
-use halflight::shape::{Cylinder, Disk, Rectangle, Sphere, Triangle};
+use halflight::shape::{Cylinder, Disk, Polygon, Rectangle, Sphere, Triangle};
 
 /// A light in its cell, with one receiver.
 #[derive(Debug, Clone, Copy)]
@@ -114,6 +114,10 @@ pub(super) fn run(cell: Cell, measured: &mut Measured) {
             Light::Triangle => {
                 let [a, b, c] = [v(-0.6, -0.5, 0.), v(0.9, -0.3, 0.), v(-0.2, 0.8, 0.)];
                 pose.look(proper(Triangle::new(a, b, c)), measured);
+            }
+            Light::Polygon => {
+                let corners = [[-0.7, -0.6], [0.5, -0.8], [0.95, 0.1], [0.2, 0.9], [-0.8, 0.5]];
+                pose.look(proper(Polygon::new(&corners.map(|[x, y]| v(x, y, 0.)))), measured);
             }
             Light::Sphere => pose.look(proper(Sphere::new(zero, size)), measured),
             Light::Cylinder => {
