@@ -34,7 +34,7 @@ pub fn polygon(from: &Receiver, corners: &[Vec3]) -> f32 {
 /// Irradiance from a triangle, negative when its corners run clockwise as the receiver sees them.
 fn fan_piece(from: &Receiver, corners: [Vec3; 3]) -> f32 {
     let chart = Chart::from_corners(from.point, corners);
-    let piece = ProjectedPolygon::<7>::new(from.normal, &chart, &[Vec2::ZERO, Vec2::X, Vec2::Y]);
+    let piece = ProjectedPolygon::<5>::new(from.normal, &chart, &[Vec2::ZERO, Vec2::X, Vec2::Y]);
     let size = piece.map_or(0.0, |piece| piece.projected_solid_angle());
     if chart.volume() < 0.0 { size } else { -size }
 }

@@ -101,7 +101,9 @@ impl<S: SampledShape> AreaLight<S> {
 impl<S: SampledShape> Emitter for AreaLight<S> {
     #[inline]
     fn sample(&self, from: &Receiver, method: SurfaceDensity, u: [f32; 2]) -> Option<LightSample> {
-        let view = self.view(from, method)?;
+        // By reference, as views may be large.
+        let view = self.view(from, method);
+        let view = view.as_ref()?;
         let sample = view.sample(u)?;
         let cos_light = self.cos_light(sample.at.normal, sample.wi);
         if !(cos_light > 0.0) || (self.sides == Sides::Both && self.shape.hides(from.point, &sample.at)) {
@@ -122,8 +124,8 @@ impl<S: SampledShape> Emitter for AreaLight<S> {
         if !(cos_light > 0.0) {
             return 0.0;
         }
-        let pdf = |view: S::View| view.pdf_solid_angle(at, wi, cos_light);
-        self.view(from, method).and_then(pdf).unwrap_or(0.0)
+        let view = self.view(from, method);
+        view.as_ref().and_then(|view| view.pdf_solid_angle(at, wi, cos_light)).unwrap_or(0.0)
     }
 
     #[inline]

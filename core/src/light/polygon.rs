@@ -55,7 +55,7 @@ impl Shares {
 }
 
 impl SampledShape for Polygon {
-    type View = View<Self, PolygonSolidAngle, ProjectedView<Self, { Polygon::MAX_CORNERS + 4 }>>;
+    type View = View<Self, PolygonSolidAngle, ProjectedView<Self, { Polygon::MAX_CORNERS + 2 }>>;
 
     /// Density `1 / area` (m⁻²).
     #[inline]
@@ -87,7 +87,7 @@ impl SampledShape for Polygon {
     }
 
     fn projected_solid_angle(&self, from: &Receiver, sides: Sides) -> Option<f32> {
-        Some(flat_projected_solid_angle::<_, { Self::MAX_CORNERS + 4 }>(self, from, sides))
+        Some(flat_projected_solid_angle::<_, { Self::MAX_CORNERS + 2 }>(self, from, sides))
     }
 }
 

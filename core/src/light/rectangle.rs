@@ -12,7 +12,7 @@ use crate::solid_angle::{RectanglePlace, SphericalRectangle};
 use glam::{Vec2, Vec3};
 
 impl SampledShape for Rectangle {
-    type View = View<Self, RectangleSolidAngle, ProjectedView<Self, 8>>;
+    type View = View<Self, RectangleSolidAngle, ProjectedView<Self, 6>>;
 
     /// Density `1 / (w h)` (m⁻²).
     #[inline]
@@ -42,7 +42,7 @@ impl SampledShape for Rectangle {
     }
 
     fn projected_solid_angle(&self, from: &Receiver, sides: Sides) -> Option<f32> {
-        Some(flat_projected_solid_angle::<_, 8>(self, from, sides))
+        Some(flat_projected_solid_angle::<_, 6>(self, from, sides))
     }
 }
 

@@ -11,7 +11,7 @@ use crate::warp;
 use glam::{Vec2, Vec3};
 
 impl SampledShape for Triangle {
-    type View = View<Self, TriangleSolidAngle, ProjectedView<Self, 7>>;
+    type View = View<Self, TriangleSolidAngle, ProjectedView<Self, 5>>;
 
     /// Density `1 / area` (m⁻²).
     #[inline]
@@ -41,7 +41,7 @@ impl SampledShape for Triangle {
     }
 
     fn projected_solid_angle(&self, from: &Receiver, sides: Sides) -> Option<f32> {
-        Some(flat_projected_solid_angle::<_, 7>(self, from, sides))
+        Some(flat_projected_solid_angle::<_, 5>(self, from, sides))
     }
 }
 

@@ -1,5 +1,16 @@
 //! The length of an arc over its chord, and how it changes.
 
+use core::ops::{Add, Mul};
+
+/// One number, or several at once.
+pub(super) trait Number:
+    Copy + Add<Output = Self> + Mul<Output = Self> + Add<f32, Output = Self> + Mul<f32, Output = Self>
+{
+}
+
+impl Number for f32 {}
+impl Number for glam::Vec4 {}
+
 /// Coefficients of `atan(√x) / √x` in powers of x for `x` in `[0, 1.25]`: error at most 3e-8, of the
 /// derivative at most 2.1e-6. Derived: interpolation at the Chebyshev nodes of that range.
 const ATAN: [f32; 10] = [
@@ -17,16 +28,20 @@ const ATAN: [f32; 10] = [
 
 /// `H(x) = atan(√x) / √x` for `x` in `[0, 1.25]`.
 #[inline]
-pub(super) fn atan_ratio(x: f32) -> f32 {
-    ATAN.iter().rev().fold(0.0, |h, c| h * x + c)
+pub(super) fn atan_ratio<T: Number>(x: T) -> T {
+    let [rest @ .., last] = ATAN;
+    rest.iter().rev().fold(x * 0.0 + last, |h, c| h * x + *c)
 }
 
 /// `H(x)` and `(H(x) − H(y)) / (x − y)`, also for `x = y`; both in `[0, 1.25]`.
 ///
 /// Derived: Horner's rule divides by `x − y` as it goes, so that nothing cancels.
 #[inline]
-pub(super) fn atan_ratio_and_slope(x: f32, y: f32) -> (f32, f32) {
-    ATAN.iter().rev().fold((0.0, 0.0), |(h, slope), c| (h * x + c, slope * y + h))
+pub(super) fn atan_ratio_and_slope<T: Number>(x: T, y: T) -> (T, T) {
+    let [c0, rest @ .., c8, c9] = ATAN;
+    let start = (x * c9 + c8, y * 0.0 + c9);
+    let (h, slope) = rest.iter().rev().fold(start, |(h, slope), c| (h * x + *c, slope * y + h));
+    (h * x + c0, slope * y + h)
 }
 
 #[cfg(test)]

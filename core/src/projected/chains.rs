@@ -2,80 +2,129 @@
 
 use super::clip::Above;
 use super::meridian::Cut;
-use glam::Vec3;
 
 /// Edges in one direction around the zenith.
 #[derive(Debug, Clone, Copy)]
-struct Chain {
+pub(super) struct Chain {
     /// The corner that the sweep has reached.
     at: usize,
     /// Edges that remain.
     left: usize,
 }
 
-/// The outer and the inner boundary of a polygon that is not around the zenith, from the smallest
-/// azimuth to the greatest.
+/// How a polygon lies about the zenith, and how far a sweep over the azimuth has got.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Chains<'a, const N: usize> {
-    above: &'a Above<N>,
-    outer: Chain,
-    inner: Chain,
+pub(super) enum Layout {
+    /// The zenith is inside or on an edge: all edges are one chain.
+    Around(Chain),
+    /// It is outside: the outer and the inner boundary, from the smallest azimuth to the greatest.
+    Beside(Chain, Chain),
 }
 
-/// How a polygon lies about the zenith.
+/// A corner that a sweep meets.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Layout<'a, const N: usize> {
-    /// The zenith is inside or on an edge.
-    Around,
-    /// It is outside.
-    Beside(Chains<'a, N>),
+pub(super) struct Step {
+    corner: usize,
+    /// The ends of the edge on the other boundary, counter-clockwise in azimuth.
+    edge: [usize; 2],
+    /// True when the corner is on the outer boundary.
+    outward: bool,
 }
 
-impl<'a, const N: usize> Layout<'a, N> {
+impl Layout {
     /// `None` for a polygon that rounding has turned inside out, or that has no width.
-    #[inline]
-    pub(super) fn of(above: &'a Above<N>) -> Option<Self> {
-        let n = above.corners().len();
-        let mut turns = [0_i8; N];
+    #[inline(always)]
+    pub(super) fn of<const N: usize>(above: &Above<N>) -> Option<Self> {
         let corners = above.corners();
-        for (i, turn) in turns[..n].iter_mut().enumerate() {
-            *turn = above.turn(&corners[i], &corners[next(i, n)]);
+        let n = corners.len();
+        let (mut forward, mut backward) = (0_u32, 0_u32);
+        for (i, corner) in corners.iter().enumerate() {
+            let (x, rounding) = above.azimuth_and_rounding(corner, &corners[next(i, n)]);
+            forward |= u32::from(x > rounding) << i;
+            backward |= u32::from(x < -rounding) << i;
         }
-        let turns = &turns[..n];
-        if !turns.contains(&1) {
+        if forward == 0 {
             return None;
         }
-        if !turns.contains(&-1) {
-            return Some(Self::Around);
+        if backward == 0 {
+            return Some(Self::Around(Chain { at: 0, left: n }));
         }
-        let (rise, fall) = (change(turns, 1), change(turns, -1));
+        let rise = first_from(forward, backward.trailing_zeros() as usize);
+        let fall = first_from(backward, rise);
         // Edges along a meridian belong to neither chain.
-        let (mut outer_end, mut inner_end) = (fall, rise);
-        while turns[previous(outer_end, n)] == 0 {
-            outer_end = previous(outer_end, n);
-        }
-        while turns[previous(inner_end, n)] == 0 {
-            inner_end = previous(inner_end, n);
-        }
+        let back_to = |edges: u32, mut end: usize| {
+            while edges >> previous(end, n) & 1 == 0 {
+                end = previous(end, n);
+            }
+            end
+        };
+        let (outer_end, inner_end) = (back_to(forward, fall), back_to(backward, rise));
         let outer = Chain { at: rise, left: distance(rise, outer_end, n) };
         let inner = Chain { at: inner_end, left: distance(fall, inner_end, n) };
-        Some(Self::Beside(Chains { above, outer, inner }))
+        Some(Self::Beside(outer, inner))
+    }
+
+    /// True when the zenith is inside or on an edge.
+    #[inline]
+    pub(super) fn is_around(&self) -> bool {
+        matches!(self, Self::Around(_))
+    }
+
+    /// The corner that a sweep starts from.
+    ///
+    /// * `n` – how many there are
+    #[inline(always)]
+    pub(super) fn first(&self, n: usize) -> Step {
+        match self {
+            Self::Around(all) => Step::alone(all.at),
+            Self::Beside(outer, inner) => {
+                Step { corner: outer.at, edge: [inner.at, previous(inner.at, n)], outward: true }
+            }
+        }
+    }
+
+    /// The next corner in the order of azimuth.
+    #[inline(always)]
+    pub(super) fn advance<const N: usize>(&mut self, above: &Above<N>) -> Option<Step> {
+        let n = above.corners().len();
+        match self {
+            Self::Around(all) if all.left == 0 => None,
+            Self::Around(all) => {
+                all.go(next(all.at, n));
+                Some(Step::alone(all.at))
+            }
+            Self::Beside(outer, inner) if outer.left == 0 || inner.left == 0 => None,
+            Self::Beside(outer, inner) => {
+                let [from, to] = [[outer.at, inner.at], [next(outer.at, n), previous(inner.at, n)]];
+                let inner_first =
+                    inner.left > 1 && (outer.left == 1 || above.azimuth_between(to[1], to[0]) > 0.0);
+                let (k, chain) = if inner_first { (1, inner) } else { (0, outer) };
+                chain.go(to[k]);
+                Some(Step { corner: to[k], edge: [from[1 - k], to[1 - k]], outward: !inner_first })
+            }
+        }
     }
 }
 
-/// The first index with the turn `to` after one with the opposite turn, zeros aside.
-#[inline]
-fn change(turns: &[i8], to: i8) -> usize {
-    let mut before = turns.iter().rev().copied().find(|t| *t != 0).unwrap_or(0);
-    for (i, &turn) in turns.iter().enumerate() {
-        if turn == to && before == -to {
-            return i;
-        }
-        if turn != 0 {
-            before = turn;
-        }
+impl Chain {
+    #[inline(always)]
+    fn go(&mut self, to: usize) {
+        *self = Self { at: to, left: self.left - 1 };
     }
-    0
+}
+
+impl Step {
+    #[inline(always)]
+    fn alone(corner: usize) -> Self {
+        Self { corner, edge: [corner; 2], outward: true }
+    }
+}
+
+/// The first bit that is set from bit `i` on, or else the first of all.
+#[inline]
+fn first_from(bits: u32, i: usize) -> usize {
+    let at_or_after = bits >> i << i;
+    (if at_or_after == 0 { bits } else { at_or_after }).trailing_zeros() as usize
 }
 
 #[inline]
@@ -101,17 +150,21 @@ impl<const N: usize> Above<N> {
         self.azimuth(&self.corners()[i], &self.corners()[j])
     }
 
-    /// The meridian at corner `k`, cut by the edge from `i` to `j`, counter-clockwise in azimuth.
+    /// The meridian at a corner.
     ///
-    /// * `outward` – true when the corner is the outer end
-    ///
-    /// Derived: with X the cross products of azimuths, the edge has the azimuth vector of k at
-    /// `(X_kj p_i + X_ik p_j) / X_ij`, and is `det(p_i, p_j, p_k) / X_ij` below it; the determinant
-    /// is the plane's times that of the places.
-    #[inline]
-    fn meridian(&self, k: usize, [i, j]: [usize; 2], outward: bool) -> Cut {
+    /// Derived: with X the cross products of azimuths, the edge from i to j has the azimuth vector of
+    /// the corner k at `(X_kj p_i + X_ik p_j) / X_ij`, and is `det(p_i, p_j, p_k) / X_ij` below it; the
+    /// determinant is the plane's times that of the places.
+    #[inline(always)]
+    pub(super) fn cut(&self, step: &Step) -> Cut {
+        let Step { corner, edge: [i, j], outward } = *step;
         let corners = self.corners();
-        let (a, b, c) = (&corners[i], &corners[j], &corners[k]);
+        let c = &corners[corner];
+        let place = c.homogeneous();
+        if corner == i || corner == j {
+            return Cut { corner, outer: c.point, rise: 0.0, outer_place: place, inner_place: place };
+        }
+        let (a, b) = (&corners[i], &corners[j]);
         let per_width = 1.0 / self.azimuth(a, b);
         let wa = self.azimuth(c, b).max(0.0) * per_width;
         let wb = self.azimuth(a, c).max(0.0) * per_width;
@@ -119,51 +172,10 @@ impl<const N: usize> Above<N> {
         let rise = self.volume * doubled_area.abs() * per_width;
         let cut = a.homogeneous() * wa as f32 + b.homogeneous() * wb as f32;
         if outward {
-            Cut { corner: k, outer: c.point, rise, outer_place: c.homogeneous(), inner_place: cut }
+            Cut { corner, outer: c.point, rise, outer_place: place, inner_place: cut }
         } else {
             let outer = a.point * wa + b.point * wb;
-            Cut { corner: k, outer, rise, outer_place: cut, inner_place: c.homogeneous() }
-        }
-    }
-
-    /// The meridians from each corner to the zenith, all around.
-    #[inline]
-    pub(super) fn around(&self) -> impl Iterator<Item = Cut> {
-        let corners = self.corners().iter().enumerate();
-        corners.clone().chain(corners.take(1)).map(|(i, corner)| {
-            let outer_place = corner.homogeneous();
-            Cut { corner: i, outer: corner.point, rise: 0.0, outer_place, inner_place: Vec3::ZERO }
-        })
-    }
-}
-
-impl<const N: usize> Chains<'_, N> {
-    /// The meridians through each corner, in the order of azimuth.
-    #[inline]
-    pub(super) fn meridians(mut self) -> impl Iterator<Item = Cut> {
-        let n = self.above.corners().len();
-        let edge = [self.inner.at, previous(self.inner.at, n)];
-        let first = self.above.meridian(self.outer.at, edge, true);
-        core::iter::once(first).chain(core::iter::from_fn(move || self.advance()))
-    }
-
-    /// The next corner in the order of azimuth, and the meridian through it.
-    #[inline]
-    fn advance(&mut self) -> Option<Cut> {
-        if self.outer.left == 0 || self.inner.left == 0 {
-            return None;
-        }
-        let n = self.above.corners().len();
-        let (outer, inner) = (next(self.outer.at, n), previous(self.inner.at, n));
-        let (outer_edge, inner_edge) = ([self.outer.at, outer], [self.inner.at, inner]);
-        let inner_first =
-            self.inner.left > 1 && (self.outer.left == 1 || self.above.azimuth_between(inner, outer) > 0.0);
-        if inner_first {
-            self.inner = Chain { at: inner, left: self.inner.left - 1 };
-            Some(self.above.meridian(inner, outer_edge, false))
-        } else {
-            self.outer = Chain { at: outer, left: self.outer.left - 1 };
-            Some(self.above.meridian(outer, inner_edge, true))
+            Cut { corner, outer, rise, outer_place: cut, inner_place: place }
         }
     }
 }

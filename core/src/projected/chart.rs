@@ -16,6 +16,7 @@ pub struct Chart {
     pub u: DVec3,
     /// Second axis (m); with the first at any angle but 0 and π.
     pub v: DVec3,
+    volume: f64,
 }
 
 impl Chart {
@@ -23,7 +24,7 @@ impl Chart {
     #[inline]
     #[must_use]
     pub fn from_axes(from: Vec3, origin: Vec3, u: Vec3, v: Vec3) -> Self {
-        Self { origin: origin.as_dvec3() - from.as_dvec3(), u: u.as_dvec3(), v: v.as_dvec3() }
+        Self::new(origin.as_dvec3() - from.as_dvec3(), u.as_dvec3(), v.as_dvec3())
     }
 
     /// The plane of three points (m), which are at (0, 0), (1, 0) and (0, 1), seen from `from` (m).
@@ -31,7 +32,15 @@ impl Chart {
     #[must_use]
     pub fn from_corners(from: Vec3, corners: [Vec3; 3]) -> Self {
         let [a, b, c] = corners.map(|corner| corner.as_dvec3());
-        Self { origin: a - from.as_dvec3(), u: b - a, v: c - a }
+        Self::new(a - from.as_dvec3(), b - a, c - a)
+    }
+
+    #[inline]
+    fn new(origin: DVec3, u: DVec3, v: DVec3) -> Self {
+        let across = u.cross(v);
+        let (volume, size) = (origin.dot(across), origin.abs().dot(across.abs()));
+        let volume = if volume.abs() > 4.0 * f64::EPSILON * size { volume } else { 0.0 };
+        Self { origin, u, v, volume }
     }
 
     /// `det(origin, u, v)` (m³): negative where `u × v` points to the receiver's side; 0 in the plane,
@@ -39,9 +48,7 @@ impl Chart {
     #[inline]
     #[must_use]
     pub fn volume(&self) -> f64 {
-        let across = self.u.cross(self.v);
-        let (volume, size) = (self.origin.dot(across), self.origin.abs().dot(across.abs()));
-        if volume.abs() > 4.0 * f64::EPSILON * size { volume } else { 0.0 }
+        self.volume
     }
 
     /// From the receiver to a point of the plane (m).

@@ -23,62 +23,58 @@ impl Corner {
     }
 }
 
-/// A convex polygon above a receiver's horizon, in units in which the largest coordinate is 1.
+/// A convex polygon above a receiver's horizon.
 ///
 /// The frame's third axis is the normal. Its handedness is such that the polygon's corners, which
 /// run counter-clockwise in the plane's coordinates, do so around the zenith as well.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Above<const N: usize> {
     pub(super) frame: Frame,
-    /// One unit (m).
-    pub(super) unit: f32,
-    /// The determinant of the plane's origin and axes; above 0.
+    /// The determinant of the plane's origin and axes (m³); above 0.
     pub(super) volume: f64,
-    /// The zenith in the plane's homogeneous coordinates, times the volume.
+    /// The zenith in the plane's homogeneous coordinates, times the volume (m²).
     pub(super) zenith: DVec3,
     corners: [Corner; N],
     len: usize,
 }
 
 impl<const N: usize> Above<N> {
-    /// `None` when nothing is above the horizon, or the receiver is in the plane.
+    /// Fewer than three corners when nothing is above the horizon, none when the receiver is in the plane.
     #[inline]
-    pub(super) fn new(normal: Vec3, chart: &Chart, places: &[Vec2]) -> Option<Self> {
-        let largest = |v: DVec3| v.abs().max_element();
-        let unit = largest(chart.origin).max(largest(chart.u)).max(largest(chart.v));
-        let per_unit = 1.0 / unit;
+    pub(super) fn new(normal: Vec3, chart: &Chart, places: &[Vec2]) -> Self {
+        let (turned, volume) = (chart.volume() < 0.0, chart.volume().abs());
         let mut frame = Frame::from_normal(normal);
-        let (s, t, n) = (frame.s.as_dvec3(), frame.t.as_dvec3(), frame.n.as_dvec3());
-        let volume = chart.volume() * per_unit * per_unit * per_unit;
-        if !(volume.abs() > 0.0 && volume.abs() < f64::INFINITY) {
-            return None;
-        }
-        let (turned, volume) = (volume < 0.0, volume.abs());
-        let t = if turned { -t } else { t };
         frame.t = if turned { -frame.t } else { frame.t };
-        let local = |v: DVec3| DVec3::new(v.dot(s), v.dot(t), v.dot(n)) * per_unit;
+        let (s, t, n) = (frame.s.as_dvec3(), frame.t.as_dvec3(), frame.n.as_dvec3());
+        let local = |v: DVec3| DVec3::new(v.dot(s), v.dot(t), v.dot(n));
         let (r, u, v) = (local(chart.origin), local(chart.u), local(chart.v));
         let across = |a: DVec3, b: DVec3| a.truncate().perp_dot(b.truncate());
         let zenith = DVec3::new(across(v, r), across(r, u), across(u, v));
-        let corner = |place: &Vec2| {
+        let mut above = Self { frame, volume, zenith, corners: [Corner::ZERO; N], len: 0 };
+        if !(volume > 0.0 && volume < f64::INFINITY) {
+            return above;
+        }
+        let mut lowest = f64::INFINITY;
+        for place in places {
             let place = place.as_dvec2();
-            Corner { place, point: r + u * place.x + v * place.y }
-        };
-        let unit = unit as f32;
-        let mut above = Self { frame, unit, volume, zenith, corners: [Corner::ZERO; N], len: 0 };
-        above.clip(places, corner);
-        (above.len > 2).then_some(above)
+            let point = r + u * place.x + v * place.y;
+            lowest = lowest.min(point.z);
+            above.push(Corner { place, point });
+        }
+        if !(lowest > 0.0) {
+            above.clip();
+        }
+        above
     }
 
     /// Keeps what is above the horizon.
     ///
     /// Source: Sutherland and Hodgman 1974, *Reentrant Polygon Clipping*, CACM 17(1), for one plane.
-    #[inline]
-    fn clip(&mut self, places: &[Vec2], corner: impl Fn(&Vec2) -> Corner) {
-        let Some(last) = places.last() else { return };
-        let mut before = corner(last);
-        for place in places {
-            let here = corner(place);
+    fn clip(&mut self) {
+        let whole = *self;
+        self.len = 0;
+        let Some(mut before) = whole.corners().last() else { return };
+        for here in whole.corners() {
             let (za, zb) = (before.point.z, here.point.z);
             if (za > 0.0) != (zb > 0.0) {
                 let t = za / (za - zb);
@@ -87,7 +83,7 @@ impl<const N: usize> Above<N> {
                 self.push(Corner { place, point: DVec3 { z: 0.0, ..point } });
             }
             if zb > 0.0 {
-                self.push(here);
+                self.push(*here);
             }
             before = here;
         }
@@ -117,12 +113,11 @@ impl<const N: usize> Above<N> {
         self.zenith.dot(cross(a.place, b.place))
     }
 
-    /// 1 where `b` is counter-clockwise of `a`, −1 clockwise, 0 as far as rounding can tell.
+    /// [`Above::azimuth`], and how far it may be off.
     #[inline]
-    pub(super) fn turn(&self, a: &Corner, b: &Corner) -> i8 {
+    pub(super) fn azimuth_and_rounding(&self, a: &Corner, b: &Corner) -> (f64, f64) {
         let cross = cross(a.place, b.place);
-        let (x, rounding) = (self.zenith.dot(cross), ROUNDING * self.zenith.abs().dot(cross.abs()));
-        i8::from(x > rounding) - i8::from(x < -rounding)
+        (self.zenith.dot(cross), ROUNDING * self.zenith.abs().dot(cross.abs()))
     }
 }
 

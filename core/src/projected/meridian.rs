@@ -19,9 +19,6 @@ pub(super) struct Meridian {
 }
 
 impl Meridian {
-    pub(super) const ZERO: Self =
-        Self { outer: Vec3::ZERO, rise: 0.0, outer_place: Vec3::ZERO, inner_place: Vec3::ZERO };
-
     #[inline]
     pub(super) fn times(self, k: f32) -> Self {
         Self {
@@ -89,21 +86,10 @@ pub(super) struct Cut {
 }
 
 impl Cut {
-    /// What brings the outer end to unit length.
+    /// What brings the outer end to unit length (m⁻¹).
     #[inline]
     pub(super) fn scale(&self) -> f64 {
         1.0 / self.outer.length()
-    }
-
-    /// The same `scale` times as long.
-    #[inline]
-    pub(super) fn scaled(&self, scale: f64) -> Meridian {
-        Meridian {
-            outer: (self.outer * scale).as_vec3(),
-            rise: (self.rise * scale) as f32,
-            outer_place: self.outer_place * scale as f32,
-            inner_place: self.inner_place * scale as f32,
-        }
     }
 }
 

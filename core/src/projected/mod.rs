@@ -5,11 +5,13 @@ mod cap;
 mod chains;
 mod chart;
 mod clip;
+mod lanes;
 mod meridian;
 #[cfg(test)]
 pub(crate) mod oracle;
 mod polygon;
 mod sector;
+mod sectors;
 #[cfg(test)]
 mod tests;
 

@@ -1,13 +1,13 @@
 //! Sampling a convex polygon in proportion to the receiver's cosine.
 
 use super::Chart;
-use super::chains::Layout;
 use super::clip::Above;
-use super::meridian::{Cut, Meridian, fraction};
+use super::meridian::{Meridian, fraction};
 use super::sector::Sector;
+use super::sectors::Sectors;
 use crate::geom::Frame;
 use crate::num;
-use glam::{DVec3, Vec2, Vec3};
+use glam::{Vec2, Vec3};
 
 /// The part of a planar convex polygon above a receiver's horizon, ready to be sampled uniformly over
 /// its projected solid angle.
@@ -15,8 +15,8 @@ use glam::{DVec3, Vec2, Vec3};
 /// It is cut along meridians into sectors between at most two edges. The first uniform picks the
 /// sector and the azimuth, the second the height.
 ///
-/// * `N` – four more than the polygon has corners: the horizon may cut off one and leave two, and the
-///   largest sectors, three at most, are halved
+/// * `N` – two more than the polygon has corners: the horizon may cut off one and leave two, and
+///   around the zenith the first meridian is the last as well
 ///
 /// Source: Peters 2021, *BRDF Importance Sampling for Polygonal Lights*, TOG 40(4), section 4.
 /// Differs: the sectors' areas and their inverses are sums of what is known without cancellation, so
@@ -24,16 +24,9 @@ use glam::{DVec3, Vec2, Vec3};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProjectedPolygon<const N: usize> {
     frame: Frame,
-    /// One unit of length (m).
-    unit: f32,
-    /// The zenith in homogeneous coordinates of the plane, times `volume`.
+    /// The zenith in homogeneous coordinates of the plane.
     zenith: Vec3,
-    /// Determinant of the plane's origin and axes.
-    volume: f32,
-    sectors: [Sector; N],
-    len: usize,
-    /// Sum of the sectors' areas (sr).
-    total: f32,
+    sectors: Sectors<N>,
 }
 
 /// A direction toward a polygon, and where it meets it.
@@ -56,65 +49,27 @@ impl<const N: usize> ProjectedPolygon<N> {
     ///
     /// * `normal` – the receiver's unit normal
     /// * `chart` – the polygon's plane, seen from the receiver
-    /// * `corners` – at most `N − 4`, convex, counter-clockwise in the chart's coordinates
+    /// * `corners` – at most `N − 2`, convex, counter-clockwise in the chart's coordinates
     #[inline]
     #[must_use]
     pub fn new(normal: Vec3, chart: &Chart, corners: &[Vec2]) -> Option<Self> {
-        let above = Above::<N>::new(normal, chart, corners)?;
-        let Above { frame, unit, .. } = above;
-        let (volume, zenith) = (above.volume as f32, above.zenith.as_vec3());
-        let mut polygon =
-            Self { frame, unit, zenith, volume, sectors: [Sector::ZERO; N], len: 0, total: 0.0 };
-        match Layout::of(&above)? {
-            Layout::Around => polygon.sweep(&above, true, above.around()),
-            Layout::Beside(chains) => polygon.sweep(&above, false, chains.meridians()),
+        let above = Above::<N>::new(normal, chart, corners);
+        if above.corners().len() < 3 {
+            return None;
         }
+        let mut polygon = Self { frame: above.frame, zenith: Vec3::ZERO, sectors: Sectors::EMPTY };
+        polygon.sectors.fill(&above);
+        let Sectors { total, unit, .. } = polygon.sectors;
+        polygon.zenith = (above.zenith * (f64::from(unit) / above.volume)).as_vec3();
         // More than the hemisphere is rounding, of numbers too far apart for double precision.
-        (polygon.total > 0.0 && polygon.total < num::PI * 1.000_1).then_some(polygon)
-    }
-
-    /// Adds the sectors between meridians, which come in the order of their azimuth.
-    #[inline]
-    fn sweep(&mut self, above: &Above<N>, to_zenith: bool, mut cuts: impl Iterator<Item = Cut>) {
-        let Some(mut before) = cuts.next() else { return };
-        let mut scale = before.scale();
-        for cut in cuts {
-            let cut_scale = cut.scale();
-            let width = above.azimuth_between(before.corner, cut.corner);
-            if width > 0.0 {
-                let pole = DVec3 { z: width, ..before.outer.cross(cut.outer) } * (scale * cut_scale);
-                let [first, last] = [before.scaled(scale), cut.scaled(cut_scale)];
-                self.push(Sector::new(first, last, pole.as_vec3(), to_zenith));
-            }
-            (before, scale) = (cut, cut_scale);
-        }
-    }
-
-    /// Adds a sector.
-    #[inline]
-    fn push(&mut self, sector: Sector) {
-        if sector.is_wide() {
-            return self.push_halves(&sector);
-        }
-        if let Some(slot) = self.sectors.get_mut(self.len) {
-            *slot = sector;
-            self.total += slot.measure();
-            self.len += 1;
-        }
-    }
-
-    #[cold]
-    fn push_halves(&mut self, sector: &Sector) {
-        let [first, last] = sector.halves();
-        self.push(first);
-        self.push(last);
+        if total > 0.0 && total < num::PI * 1.000_1 { Some(polygon) } else { None }
     }
 
     /// The projected solid angle (sr), above 0 and at most π.
     #[inline]
     #[must_use]
     pub fn projected_solid_angle(&self) -> f32 {
-        self.total
+        self.sectors.total
     }
 
     /// Density of the unit direction `wi`, which meets the polygon: `cos θ / E` (sr⁻¹); `None` below the
@@ -122,7 +77,7 @@ impl<const N: usize> ProjectedPolygon<N> {
     #[inline]
     #[must_use]
     pub fn pdf_solid_angle(&self, wi: Vec3) -> Option<f32> {
-        let pdf = self.frame.n.dot(wi) / self.total;
+        let pdf = self.frame.n.dot(wi) / self.sectors.total;
         (pdf > 0.0 && pdf < f32::INFINITY).then_some(pdf)
     }
 
@@ -132,35 +87,41 @@ impl<const N: usize> ProjectedPolygon<N> {
     #[inline]
     #[must_use]
     pub fn sample(&self, u: [f32; 2]) -> Option<PolygonSample> {
-        let (sector, area) = self.pick(u[0].max(LOWEST) * self.total);
-        let meridian = sector.at(sector.fraction_at(area));
+        let (i, mut area) = self.pick(u[0].max(LOWEST) * self.sectors.total);
+        let (mut sector, mut whole) = (self.sectors.get(i), self.sectors.areas()[i]);
+        if sector.is_wide() {
+            (sector, area, whole) = sector.half_at(area);
+        }
+        let meridian = sector.at(sector.fraction_at(area, whole));
         let above = sector.height_of(&meridian, u[1].max(LOWEST));
         let v = meridian.outer + Vec3::Z * above;
-        let place = if sector.is_to_zenith() {
-            meridian.outer_place + self.zenith * (above / self.volume)
+        let place = if self.sectors.to_zenith {
+            meridian.outer_place + self.zenith * above
         } else {
             meridian.place(above)
         };
         let length = num::sqrt(v.length_squared());
-        let distance = length / place.z * self.unit;
+        let distance = length / place.z * self.sectors.unit;
         let wi = self.frame.to_world(v / length);
         let place = place.truncate() / place.z;
-        (distance > 0.0 && distance < f32::INFINITY && wi.is_finite() && place.is_finite())
+        (distance > 0.0 && distance < f32::INFINITY && (wi.element_sum() + place.element_sum()).is_finite())
             .then_some(PolygonSample { wi, distance, place })
     }
 
     /// The sector in which the projected solid angle `area` ends, and what of it remains (sr).
     #[inline]
-    fn pick(&self, mut area: f32) -> (&Sector, f32) {
-        let mut picked = &self.sectors[0];
-        for sector in &self.sectors[1..self.len] {
-            if area < picked.area() {
-                break;
+    fn pick(&self, mut area: f32) -> (usize, f32) {
+        let mut picked = (0, 0.0);
+        for (i, part) in self.sectors.areas().iter().copied().enumerate() {
+            if part > 0.0 {
+                picked = (i, area.min(part));
+                if area < part {
+                    break;
+                }
+                area -= part;
             }
-            area -= picked.area();
-            picked = sector;
         }
-        (picked, area.min(picked.area()))
+        picked
     }
 
     /// The uniforms for which [`ProjectedPolygon::sample`] draws the point at `place`, in the chart's
@@ -168,34 +129,51 @@ impl<const N: usize> ProjectedPolygon<N> {
     #[must_use]
     pub fn invert(&self, place: Vec2) -> [f32; 2] {
         let place = place.extend(1.0);
-        let azimuth = |a: Vec3, b: Vec3| self.zenith.dot(a.cross(b));
-        let mut before = 0.0;
-        for (i, sector) in self.sectors[..self.len].iter().enumerate() {
-            let from_first = azimuth(sector.first.outer_place, place);
-            let to_last = azimuth(place, sector.last.outer_place);
-            // In the last one at the latest, as far as rounding goes.
-            if (from_first >= 0.0 && to_last >= 0.0) || i + 1 == self.len {
-                let (a, b) = (from_first.max(0.0), to_last.max(0.0));
-                let t = if a + b > 0.0 { a / (a + b) } else { 0.0 };
-                let meridian = sector.at(t);
-                let share = (before + sector.area_to(t)) / self.total;
-                let above = if sector.is_to_zenith() {
-                    self.height_toward_zenith(&meridian, place)
-                } else {
-                    meridian.height(place)
-                };
-                let v = sector.share_below(&meridian, above);
-                return [share, v].map(|u| if u > 0.0 { u.min(num::ONE_MINUS_EPSILON) } else { 0.0 });
-            }
-            before += sector.area();
+        let (sector, before) = self.locate(place);
+        let from_first = self.azimuth(sector.first.outer_place, place).max(0.0);
+        let to_last = self.azimuth(place, sector.last.outer_place).max(0.0);
+        let sum = from_first + to_last;
+        let t = if sum > 0.0 { from_first / sum } else { 0.0 };
+        let meridian = sector.at(t);
+        let above = if self.sectors.to_zenith {
+            self.height_toward_zenith(&meridian, place)
+        } else {
+            meridian.height(place)
+        };
+        let share = (before + sector.area_to(t)) / self.sectors.total;
+        [share, sector.share_below(&meridian, above)].map(num::clamp_unit)
+    }
+
+    /// The sector in which a place is, half of it when it is wide, and the area before that (sr).
+    fn locate(&self, place: Vec3) -> (Sector, f32) {
+        let is_before = |end: &Meridian| self.azimuth(place, end.outer_place) >= 0.0;
+        let is_inside = |i: &usize| {
+            let from = self.sectors.meridian(*i).outer_place;
+            self.azimuth(from, place) >= 0.0 && is_before(&self.sectors.meridian(i + 1))
+        };
+        let areas = self.sectors.areas();
+        let parts = || (0..areas.len()).filter(|i| areas[*i] > 0.0);
+        // In the last one at the latest, as far as rounding goes.
+        let i = parts().find(is_inside).or_else(|| parts().last()).unwrap_or(0);
+        let before = areas[..i].iter().sum();
+        let sector = self.sectors.get(i);
+        if !sector.is_wide() {
+            return (sector, before);
         }
-        [0.0; 2]
+        let [first, last] = sector.halves();
+        if is_before(&first.last) { (first, before) } else { (last, before + first.area_to(1.0)) }
+    }
+
+    /// Cross product of the azimuths of two places, up to a factor.
+    #[inline]
+    fn azimuth(&self, a: Vec3, b: Vec3) -> f32 {
+        self.zenith.dot(a.cross(b))
     }
 
     /// The height above the outer end of a place between there and the zenith.
     #[inline]
     fn height_toward_zenith(&self, meridian: &Meridian, place: Vec3) -> f32 {
         let f = fraction(place, meridian.outer_place, self.zenith).min(num::ONE_MINUS_EPSILON);
-        f * meridian.outer_place.z * self.volume / ((1.0 - f) * self.zenith.z)
+        f * meridian.outer_place.z / ((1.0 - f) * self.zenith.z)
     }
 }

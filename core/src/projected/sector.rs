@@ -25,22 +25,9 @@ pub(super) struct Sector {
     sin2: f32,
     /// Square of the cross product of the inner chord's ends, less that of the outer chord's.
     inner_sin2: f32,
-    /// Projected solid angle (sr).
-    area: f32,
 }
 
 impl Sector {
-    pub(super) const ZERO: Self = Self {
-        first: Meridian::ZERO,
-        last: Meridian::ZERO,
-        pole: Vec3::ZERO,
-        to_zenith: false,
-        cos: 0.0,
-        sin2: 0.0,
-        inner_sin2: 0.0,
-        area: 0.0,
-    };
-
     /// The piece from `first` counter-clockwise to `last`.
     ///
     /// * `pole` – cross product of the outer ends; of their azimuth vectors, its z, above 0
@@ -51,22 +38,13 @@ impl Sector {
         let (qa, qb) = (first.square_rise(), last.square_rise());
         let mixed = first.rise * last.height_sum() + last.rise * first.height_sum();
         let inner_sin2 = eb.length_squared() * qa + ea.length_squared() * qb - ea.dot(eb) * mixed;
-        Self {
-            first,
-            last,
-            pole,
-            to_zenith,
-            cos: a.dot(b),
-            sin2: pole.length_squared(),
-            inner_sin2,
-            area: 0.0,
-        }
+        Self { first, last, pole, to_zenith, cos: a.dot(b), sin2: pole.length_squared(), inner_sin2 }
     }
 
     /// True when the outer arc is much beyond a right angle.
     #[inline]
     pub(super) fn is_wide(&self) -> bool {
-        self.cos < -0.1
+        self.cos < WIDE
     }
 
     /// Both halves of a wide piece; they are not wide.
@@ -85,23 +63,19 @@ impl Sector {
         [half(self.first, middle), half(middle, self.last)]
     }
 
-    /// Works out the area.
-    #[inline]
-    pub(super) fn measure(&mut self) -> f32 {
-        self.area = self.area_to(1.0);
-        self.area
+    /// Projected solid angle of a wide piece (sr).
+    #[cold]
+    pub(super) fn area_of_halves(&self) -> f32 {
+        self.halves().iter().map(|half| half.area_to(1.0)).sum()
     }
 
-    /// Projected solid angle (sr).
-    #[inline]
-    pub(super) fn area(&self) -> f32 {
-        self.area
-    }
-
-    /// True when it reaches up to the zenith.
-    #[inline]
-    pub(super) fn is_to_zenith(&self) -> bool {
-        self.to_zenith
+    /// The half of a wide piece in which the projected solid angle `area` ends, what of it remains
+    /// (sr), and that of the half (sr).
+    #[cold]
+    pub(super) fn half_at(&self, area: f32) -> (Self, f32, f32) {
+        let [first, last] = self.halves();
+        let middle = first.area_to(1.0);
+        if area < middle { (first, area, middle) } else { (last, area - middle, last.area_to(1.0)) }
     }
 
     /// The meridian at the fraction `t` of the chords.
@@ -150,9 +124,21 @@ impl Sector {
     /// difference of two such terms is one of divided differences.
     #[inline]
     pub(super) fn area_to(&self, t: f32) -> f32 {
-        let t2 = t * t;
-        let (cos, sin2) = (1.0 + t * (self.cos - 1.0), t2 * self.sin2);
-        let outer2 = cos * cos + sin2;
+        self.area_of(&self.part(t))
+    }
+
+    #[inline]
+    fn part(&self, t: f32) -> Part {
+        let (cos, sin2) = (1.0 + t * (self.cos - 1.0), t * t * self.sin2);
+        let (da, sa) = (self.first.rise, self.first.height_sum());
+        let rise = da + t * (self.last.rise - da);
+        let height_sum = sa + t * (self.last.height_sum() - sa);
+        Part { t, cos, sin2, outer2: cos * cos + sin2, rise, height_sum, square: rise * height_sum }
+    }
+
+    #[inline]
+    fn area_of(&self, part: &Part) -> f32 {
+        let Part { t, cos, sin2, outer2, rise, height_sum, square: qt } = *part;
         let outer = num::sqrt(outer2);
         let k_outer = cos + outer;
         let x_outer = sin2 / (k_outer * k_outer);
@@ -160,60 +146,112 @@ impl Sector {
             return self.pole.z * t * atan_ratio(x_outer) / k_outer;
         }
         let (da, sa) = (self.first.rise, self.first.height_sum());
-        let dt = da + t * (self.last.rise - da);
-        let st = sa + t * (self.last.height_sum() - sa);
-        let (qa, qt) = (da * sa, dt * st);
+        let qa = da * sa;
         let square = qa * outer2 + qt + qa * qt;
-        let k_rise = 0.5 * (da * st + dt * sa) + square / (num::sqrt(outer2 + square) + outer);
+        let k_rise = 0.5 * (da * height_sum + rise * sa) + square / (num::sqrt(outer2 + square) + outer);
         let k_inner = k_outer + k_rise;
         let per_k = 1.0 / k_inner;
         // N² / K² of the outer arc less that of the inner one.
-        let x_fall = (x_outer * k_rise * (k_inner + k_outer) - t2 * self.inner_sin2) * per_k * per_k;
+        let x_fall = (x_outer * k_rise * (k_inner + k_outer) - t * t * self.inner_sin2) * per_k * per_k;
         let (h, slope) = atan_ratio_and_slope(x_outer, (x_outer - x_fall).max(0.0));
         self.pole.z * t * per_k * (k_rise * h / k_outer + slope * x_fall)
     }
 
-    /// Derivative of [`Sector::area_to`]: the area of the strip at `meridian`.
+    /// Derivative of [`Sector::area_to`], the area of the strip there; and half of its own over it.
     #[inline]
-    fn strip(&self, meridian: &Meridian) -> f32 {
-        let outer2 = meridian.outer.length_squared();
-        let rise =
-            if self.to_zenith { 1.0 } else { meridian.square_rise() / (outer2 + meridian.square_rise()) };
-        0.5 * self.pole.z * rise / outer2
+    fn strip(&self, part: &Part) -> (f32, f32) {
+        let Part { t, outer2, rise, height_sum, square, .. } = *part;
+        // Half the derivatives of the squares.
+        let outer_slope = (t + t - 1.0) * (1.0 - self.cos);
+        if self.to_zenith {
+            let per = 1.0 / outer2;
+            return (0.5 * self.pole.z * per, -outer_slope * per);
+        }
+        let height_slope = self.last.height_sum() - self.first.height_sum();
+        let slope = 0.5 * ((self.last.rise - self.first.rise) * height_sum + rise * height_slope);
+        let inner2 = outer2 + square;
+        let both = outer2 * inner2;
+        let growth = slope * both - square * (outer_slope * (outer2 + inner2) + slope * outer2);
+        (0.5 * self.pole.z * square / both, growth / (square * both))
     }
 
     /// The fraction of the chords up to which the projected solid angle is `area` (sr).
     ///
-    /// Newton's method on [`Sector::area_to`] within a shrinking bracket, from where a strip that
-    /// grows evenly would be.
+    /// * `whole` – that of the whole (sr)
+    ///
+    /// Halley's method on [`Sector::area_to`] within a shrinking bracket.
     #[inline]
-    pub(super) fn fraction_at(&self, area: f32) -> f32 {
-        let (f0, f1) = (self.strip(&self.first), self.strip(&self.last));
-        let share = area / self.area;
-        let root = num::sqrt(f0 * f0 + share * (f1 - f0) * (f1 + f0));
-        let mut t = share * (f0 + f1) / (f0 + root);
+    pub(super) fn fraction_at(&self, area: f32, whole: f32) -> f32 {
+        let mut t = self.first_guess(area / whole, whole);
         let (mut low, mut high) = (0.0, 1.0);
+        let smaller = area.min(whole - area);
+        let enough = TOLERANCE * whole * smaller * smaller;
         for _ in 0..MAX_STEPS {
             if !(t >= low && t <= high) {
                 t = 0.5 * (low + high);
             }
-            let error = self.area_to(t) - area;
-            if error.abs() <= TOLERANCE * self.area {
-                break;
-            }
+            let part = self.part(t);
+            let error = self.area_of(&part) - area;
             if error > 0.0 {
                 high = t;
             } else {
                 low = t;
             }
-            t -= error / self.strip(&self.at(t));
+            let (strip, growth) = self.strip(&part);
+            let step = error / strip;
+            let next = t - step / (1.0 - step * growth);
+            if error.abs() * error * error <= enough {
+                return if next >= low && next <= high { next } else { t };
+            }
+            t = next;
         }
-        t.clamp(0.0, 1.0)
+        if t >= low && t <= high { t } else { low }
+    }
+
+    /// Where the share `s` of the area ends, by the quotient of two quadratics that has the area's
+    /// values and derivatives at both ends.
+    ///
+    /// Source: Gregory and Delbourgo 1982, *Piecewise Rational Quadratic Interpolation to Monotonic
+    /// Data*, IMA J. Numer. Anal. 2(2), equation 3; derived: its inverse.
+    #[inline]
+    fn first_guess(&self, s: f32, whole: f32) -> f32 {
+        let r = 1.0 - s;
+        let per_whole = 0.5 * self.pole.z / whole;
+        // As in `strip`, where the outer end is a unit vector.
+        let strip = |end: &Meridian| {
+            let square = end.square_rise();
+            if self.to_zenith { per_whole } else { per_whole * square / (1.0 + square) }
+        };
+        let (d0, d1) = (strip(&self.first), strip(&self.last));
+        let b = d0 * r + (2.0 - d1) * s;
+        let root = num::sqrt((b - 2.0 * s) * (b - 2.0 * s) + 4.0 * s * r);
+        if b > 0.0 { 2.0 * s / (b + root) } else { 0.5 * (root - b) / (1.0 - b) }
     }
 }
 
-/// Steps of Newton's method at most; two are common.
+/// What is known of a piece up to a fraction of its chords.
+#[derive(Debug, Clone, Copy)]
+struct Part {
+    /// The fraction.
+    t: f32,
+    /// Scalar product of the outer ends, and square of their cross product.
+    cos: f32,
+    sin2: f32,
+    /// Square of the second outer end.
+    outer2: f32,
+    /// The second meridian's rise, the sum of its heights, and the product of these.
+    rise: f32,
+    height_sum: f32,
+    square: f32,
+}
+
+/// The cosine of the outer arc from which a piece is wide: just beyond a right angle, as those of a
+/// square are about its middle.
+pub(super) const WIDE: f32 = -0.1;
+
+/// Steps of Halley's method at most; one or two are common.
 const MAX_STEPS: usize = 16;
 
-/// Error of the inverted share: what [`Sector::area_to`] itself is good for.
-const TOLERANCE: f32 = 4e-6;
+/// The cube of an error in the share, over the square of the smaller of the shares on both sides, from
+/// which one more step leaves 2e-6 at most.
+const TOLERANCE: f32 = 1e-5;

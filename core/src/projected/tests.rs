@@ -20,7 +20,7 @@ const HEXAGON: [Vec2; 6] = [
 /// Whole, thin, a needle.
 const ASPECTS: [f32; 3] = [1.0, 1e3, 1e6];
 
-type Polygon = ProjectedPolygon<10>;
+type Polygon = ProjectedPolygon<8>;
 
 /// A receiver, and a polygon with its plane.
 #[derive(Debug, Clone, Copy)]
