@@ -1,6 +1,7 @@
 //! Flat lights with straight edges, uniform over projected solid angle.
 
 use super::{Receiver, SampledShape, Sides, SurfaceSample, SurfaceView};
+use crate::num;
 use crate::projected::{Chart, ProjectedPolygon};
 use crate::shape::SurfacePoint;
 use glam::{Vec2, Vec3};
@@ -27,6 +28,7 @@ pub trait FlatShape: SampledShape {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProjectedView<S, const N: usize> {
     shape: S,
+    from: Vec3,
     polygon: ProjectedPolygon<N>,
 }
 
@@ -38,7 +40,7 @@ impl<S: FlatShape, const N: usize> ProjectedView<S, N> {
     #[must_use]
     pub fn new(shape: &S, from: &Receiver, chart: &Chart) -> Option<Self> {
         let polygon = ProjectedPolygon::new(from.normal, chart, shape.corners().as_ref())?;
-        Some(Self { shape: *shape, polygon })
+        Some(Self { shape: *shape, from: from.point, polygon })
     }
 }
 
@@ -55,7 +57,7 @@ pub(super) fn faces(chart: &Chart, sides: Sides) -> bool {
 /// * `distance` – from the receiver (m)
 #[inline]
 pub(super) fn is_near(at: &SurfacePoint, wi: Vec3, distance: f32) -> bool {
-    at.point.abs().max_element() * at.normal.dot(wi).abs() > distance
+    at.error.max_element() * at.normal.dot(wi).abs() > num::gamma(8) * distance
 }
 
 /// Projected solid angle of what `from` sees of the emitting sides above its horizon (sr).
@@ -86,7 +88,11 @@ impl<S: FlatShape, const N: usize> SurfaceView for ProjectedView<S, N> {
 
     fn invert(&self, at: &SurfacePoint, wi: Vec3) -> Option<[f32; 2]> {
         self.polygon.pdf_solid_angle(wi)?;
-        Some(self.polygon.invert(self.shape.place_of(at.point)))
+        Some(if is_near(at, wi, at.point.distance(self.from)) {
+            self.polygon.invert_direction(wi)
+        } else {
+            self.polygon.invert(self.shape.place_of(at.point))
+        })
     }
 }
 
