@@ -2,7 +2,7 @@
 
 use super::{
     AreaView, FlatShape, ProjectedView, Receiver, SampledShape, Sides, SurfaceDensity, SurfaceSample,
-    SurfaceView, UseView, View, faces, flat_projected_solid_angle,
+    SurfaceView, UseView, View, faces, flat_projected_solid_angle, is_near,
 };
 use crate::geom::Frame;
 use crate::num::{self, ONE_MINUS_EPSILON};
@@ -179,9 +179,9 @@ impl SurfaceView for PolygonSolidAngle {
     fn sample(&self, u: [f32; 2]) -> Option<SurfaceSample> {
         let (i, first) = self.shares.choose(u[0]);
         let TrianglePlace { barycentric: [shared, second], direction: wi, distance } =
-            self.part(i)?.sample([first, u[1]]);
-        let at = self.shape.place(i, (1.0 - shared - second).max(0.0), second);
-        (distance > 0.0).then_some(SurfaceSample { at, wi, distance })
+            self.part(i)?.sample([first, u[1]])?;
+        let at = self.shape.place(i, (1.0 - shared - second).max(0.0) as f32, second as f32);
+        Some(SurfaceSample { at, wi, distance })
     }
 
     #[inline]
@@ -191,9 +191,11 @@ impl SurfaceView for PolygonSolidAngle {
 
     fn invert(&self, at: &SurfacePoint, wi: Vec3) -> Option<[f32; 2]> {
         let (i, [b1, b2]) = self.shape.locate(at.point);
-        let barycentric = [1.0 - b1 - b2, b2];
-        let [first, second] =
-            self.part(i)?.invert(&TrianglePlace { barycentric, direction: wi, distance: 0.0 });
+        let part = self.part(i)?;
+        let met = part.meet(wi)?;
+        let barycentric =
+            if is_near(at, wi, met.distance) { met.barycentric } else { [1.0 - b1 - b2, b2].map(f64::from) };
+        let [first, second] = part.invert(barycentric);
         Some([self.shares.join(i, first), second])
     }
 }

@@ -1,6 +1,7 @@
 //! Flat lights with straight edges, uniform over projected solid angle.
 
 use super::{Receiver, SampledShape, Sides, SurfaceSample, SurfaceView};
+use crate::num;
 use crate::projected::{Chart, ProjectedPolygon};
 use crate::shape::SurfacePoint;
 use glam::{Vec2, Vec3};
@@ -27,6 +28,7 @@ pub trait FlatShape: SampledShape {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProjectedView<S, const N: usize> {
     shape: S,
+    from: Vec3,
     polygon: ProjectedPolygon<N>,
 }
 
@@ -38,7 +40,7 @@ impl<S: FlatShape, const N: usize> ProjectedView<S, N> {
     #[must_use]
     pub fn new(shape: &S, from: &Receiver, chart: &Chart) -> Option<Self> {
         let polygon = ProjectedPolygon::new(from.normal, chart, shape.corners().as_ref())?;
-        Some(Self { shape: *shape, polygon })
+        Some(Self { shape: *shape, from: from.point, polygon })
     }
 }
 
@@ -47,6 +49,15 @@ impl<S: FlatShape, const N: usize> ProjectedView<S, N> {
 pub(super) fn faces(chart: &Chart, sides: Sides) -> bool {
     let volume = chart.volume();
     volume < 0.0 || (sides == Sides::Both && volume > 0.0)
+}
+
+/// True where a direction says better than the coordinates of a point of a flat light where in the
+/// light's plane it is: the rounding of the coordinates moves it farther than that of the direction.
+///
+/// * `distance` – from the receiver (m)
+#[inline]
+pub(super) fn is_near(at: &SurfacePoint, wi: Vec3, distance: f32) -> bool {
+    at.error.max_element() * at.normal.dot(wi).abs() > num::gamma(8) * distance
 }
 
 /// Projected solid angle of what `from` sees of the emitting sides above its horizon (sr).
@@ -77,7 +88,11 @@ impl<S: FlatShape, const N: usize> SurfaceView for ProjectedView<S, N> {
 
     fn invert(&self, at: &SurfacePoint, wi: Vec3) -> Option<[f32; 2]> {
         self.polygon.pdf_solid_angle(wi)?;
-        Some(self.polygon.invert(self.shape.place_of(at.point)))
+        Some(if is_near(at, wi, at.point.distance(self.from)) {
+            self.polygon.invert_direction(wi)
+        } else {
+            self.polygon.invert(self.shape.place_of(at.point))
+        })
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::{
     AreaView, FlatShape, ProjectedView, Receiver, SampledShape, Sides, SurfaceDensity, SurfaceSample,
-    SurfaceView, UseView, View, faces, flat_projected_solid_angle,
+    SurfaceView, UseView, View, faces, flat_projected_solid_angle, is_near,
 };
 use crate::projected::Chart;
 use crate::shape::{Shape, SurfacePoint, Triangle};
@@ -91,11 +91,8 @@ impl TriangleSolidAngle {
 impl SurfaceView for TriangleSolidAngle {
     #[inline(always)]
     fn sample(&self, u: [f32; 2]) -> Option<SurfaceSample> {
-        let TrianglePlace { barycentric: [b1, b2], direction: wi, distance } = self.seen.sample(u);
-        if !(distance > 0.0) {
-            return None;
-        }
-        Some(SurfaceSample { at: self.shape.point(b1, b2), wi, distance })
+        let TrianglePlace { barycentric: [b1, b2], direction: wi, distance } = self.seen.sample(u)?;
+        Some(SurfaceSample { at: self.shape.point(b1 as f32, b2 as f32), wi, distance })
     }
 
     #[inline(always)]
@@ -104,7 +101,12 @@ impl SurfaceView for TriangleSolidAngle {
     }
 
     fn invert(&self, at: &SurfacePoint, wi: Vec3) -> Option<[f32; 2]> {
-        let barycentric = self.shape.coordinates(at.point).into();
-        Some(self.seen.invert(&TrianglePlace { barycentric, direction: wi, distance: 0.0 }))
+        let met = self.seen.meet(wi)?;
+        let barycentric = if is_near(at, wi, met.distance) {
+            met.barycentric
+        } else {
+            <[f32; 2]>::from(self.shape.coordinates(at.point)).map(f64::from)
+        };
+        Some(self.seen.invert(barycentric))
     }
 }

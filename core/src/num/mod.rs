@@ -47,6 +47,13 @@ pub fn clamp(x: f32, low: f32, high: f32) -> f32 {
     if x < high { x } else { high }
 }
 
+/// Square root in double precision; NaN below 0.
+#[inline]
+#[must_use]
+pub fn sqrt_in_double(x: f64) -> f64 {
+    libm::sqrt(x)
+}
+
 /// `x` in `[0, 1)`: the nearest there, and 0 for NaN.
 #[inline]
 #[must_use]

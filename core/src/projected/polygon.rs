@@ -129,28 +129,55 @@ impl<const N: usize> ProjectedPolygon<N> {
     #[must_use]
     pub fn invert(&self, place: Vec2) -> [f32; 2] {
         let place = place.extend(1.0);
-        let (sector, before) = self.locate(place);
-        let from_first = self.azimuth(sector.first.outer_place, place).max(0.0);
-        let to_last = self.azimuth(place, sector.last.outer_place).max(0.0);
+        self.invert_at(
+            |end| self.zenith.dot(end.outer_place.cross(place)),
+            |meridian| {
+                if self.sectors.to_zenith {
+                    self.height_toward_zenith(meridian, place)
+                } else {
+                    meridian.height(place)
+                }
+            },
+        )
+    }
+
+    /// The same for the point that the unit direction `wi` meets: near the polygon, where a place of
+    /// single precision does not tell directions apart.
+    #[must_use]
+    pub fn invert_direction(&self, wi: Vec3) -> [f32; 2] {
+        let v = self.frame.to_local(wi);
+        let across = v.truncate();
+        self.invert_at(
+            |end| end.outer.truncate().perp_dot(across),
+            |meridian| {
+                let scale = num::sqrt(meridian.outer.truncate().length_squared() / across.length_squared());
+                // The zenith is as high as anything that has a square.
+                let above = (v.z * scale.min(1.0e15) - meridian.outer.z).max(0.0);
+                if self.sectors.to_zenith { above } else { above.min(meridian.rise) }
+            },
+        )
+    }
+
+    /// The uniforms of a point by how far its azimuth is beyond that of a meridian, and by its height
+    /// above the outer end of its own.
+    ///
+    /// * `beyond` – cross product of both azimuths, up to a factor
+    fn invert_at(&self, beyond: impl Fn(&Meridian) -> f32, height: impl Fn(&Meridian) -> f32) -> [f32; 2] {
+        let (sector, before) = self.locate(&beyond);
+        let from_first = beyond(&sector.first).max(0.0);
+        let to_last = (-beyond(&sector.last)).max(0.0);
         let sum = from_first + to_last;
         let t = if sum > 0.0 { from_first / sum } else { 0.0 };
         let meridian = sector.at(t);
-        let above = if self.sectors.to_zenith {
-            self.height_toward_zenith(&meridian, place)
-        } else {
-            meridian.height(place)
-        };
         let share = (before + sector.area_to(t)) / self.sectors.total;
-        [share, sector.share_below(&meridian, above)].map(num::clamp_unit)
+        [share, sector.share_below(&meridian, height(&meridian))].map(num::clamp_unit)
     }
 
-    /// The sector in which a place is, half of it when it is wide, and the area before that (sr).
-    fn locate(&self, place: Vec3) -> (Sector, f32) {
-        let is_before = |end: &Meridian| self.azimuth(place, end.outer_place) >= 0.0;
-        let is_inside = |i: &usize| {
-            let from = self.sectors.meridian(*i).outer_place;
-            self.azimuth(from, place) >= 0.0 && is_before(&self.sectors.meridian(i + 1))
-        };
+    /// The sector in which a point is, half of it when it is wide, and the area before that (sr).
+    fn locate(&self, beyond: impl Fn(&Meridian) -> f32) -> (Sector, f32) {
+        let is_before = |end: &Meridian| beyond(end) <= 0.0;
+        let is_inside =
+            |i: &usize| beyond(&self.sectors.meridian(*i)) >= 0.0 && is_before(&self.sectors.meridian(i + 1));
         let areas = self.sectors.areas();
         let parts = || (0..areas.len()).filter(|i| areas[*i] > 0.0);
         // In the last one at the latest, as far as rounding goes.
@@ -162,12 +189,6 @@ impl<const N: usize> ProjectedPolygon<N> {
         }
         let [first, last] = sector.halves();
         if is_before(&first.last) { (first, before) } else { (last, before + first.area_to(1.0)) }
-    }
-
-    /// Cross product of the azimuths of two places, up to a factor.
-    #[inline]
-    fn azimuth(&self, a: Vec3, b: Vec3) -> f32 {
-        self.zenith.dot(a.cross(b))
     }
 
     /// The height above the outer end of a place between there and the zenith.

@@ -1,13 +1,14 @@
 //! Uniform directions toward a triangle.
 
-use crate::num;
+use crate::num::{self, sqrt_in_double as sqrt};
 use glam::{DVec3, Vec3};
 
 /// A place on a triangle and the way there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TrianglePlace {
-    /// Barycentric `(b1, b2)` of the place.
-    pub barycentric: [f32; 2],
+    /// Barycentric `(b1, b2)` of the place, in double precision: next to the receiver the differences
+    /// between places are as small as its distance.
+    pub barycentric: [f64; 2],
     /// Unit direction to it.
     pub direction: Vec3,
     /// Its distance (m).
@@ -24,13 +25,13 @@ pub struct TrianglePlace {
 /// tan(s/2) = T cot(c/2) / (sin α − T cos α)
 /// ```
 ///
-/// along `v₀ v₂`, and seen from `v₁` it is at the angle to `v₀` whose cosine and sine are as
-/// `sin α − T (2/n) cos α − T² cot²(c/2) sin α` to `T (2/n) (sin α − T cos α)`, `n = 1 − cos c`.
-/// Nothing here cancels for small triangles, nor for one that fills the hemisphere, where `s` stays
-/// put and the angle at `v₁` does all the way.
+/// along `v₀ v₂`. Nothing here cancels for small triangles, nor for one that fills the hemisphere,
+/// where `s` stays put and the angle at `v₁` does all the way. Ratios of sines along both arcs say
+/// where on the flat triangle the place is; direction and distance are those of the place.
 ///
-/// The set-up is in double precision: in single, a determinant is off by 1e-4 at 1 mrad over the
-/// plane, and a denominator by 6 % at 1e-6 sizes from an edge. What comes after is single.
+/// In double precision but for angles: next to a needle the sides of the spherical triangle are half
+/// turns less 1e-6, of which single precision knows one digit, and the place depends on the rest. At
+/// 1 mrad over the plane a determinant in single precision is off by 1e-4.
 ///
 /// Source: Arvo 1995, *Stratified Sampling of Spherical Triangles*, SIGGRAPH, section 2. Differs:
 /// half-angle tangents as above (derived), and no arc cosine; solid angle after Van Oosterom,
@@ -38,55 +39,57 @@ pub struct TrianglePlace {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SphericalTriangle {
     solid_angle: f32,
-    /// Toward the second corner, with a tangent toward the first and one toward the third's side.
-    apex: Vec3,
-    toward_first: Vec3,
-    toward_third: Vec3,
+    /// From the receiver to the first corner, and from there to the others (m).
+    origin: DVec3,
+    edges: [DVec3; 2],
+    /// Distances of the first and the second corner (m).
+    first: f64,
+    second: f64,
     /// Cosine and sine of the angle at the first corner.
-    alpha: [f32; 2],
-    /// Of the side from the first to the second corner: `1 − cos`, and the cotangent of its half.
-    versine: f32,
-    cot_half: f32,
-    /// Cosine and sine of the side from the first to the third corner.
-    base: [f32; 2],
-    /// Distance of the nearest corner (m), and its ratio to the distance of each.
-    nearest: f32,
-    nearness: [f32; 3],
+    alpha: [f64; 2],
+    /// Of the side from the first to the second corner: `1 − cos`, `1 + cos`, and the cotangent of its
+    /// half.
+    versine: f64,
+    versine_below: f64,
+    cot_half: f64,
+    /// The edge to the third corner along the direction of the first, and across (m).
+    base: [f64; 2],
 }
 
 /// The corners relative to a receiver.
 struct Relative {
-    /// Directions, and one over their distances.
+    /// From the receiver to the first corner, and from there to the others.
+    origin: DVec3,
+    edges: [DVec3; 2],
+    /// Directions and distances.
     v: [DVec3; 3],
-    per_l: [f64; 3],
-    /// Normals of the planes through the receiver and the first corner: with the second, of length
-    /// `l₁ sin`, and with the third, `l₂ sin`.
-    side: DVec3,
-    base: DVec3,
-    /// Volume of the first direction and the other corners, negative when clockwise.
-    det: f64,
+    l: [f64; 3],
+    /// From the first corner to the second and third, or from the receiver to them, whichever is
+    /// shorter and so has lost less: all that counts is the part across the first direction.
+    ways: [DVec3; 2],
 }
 
 impl Relative {
-    #[inline(always)]
+    #[inline]
     fn new(from: Vec3, corners: &[Vec3; 3]) -> Self {
         let [a, b, c] = corners.map(|c| c.as_dvec3());
-        let p = [a, b, c].map(|corner| corner - from.as_dvec3());
-        let squares = p.map(DVec3::length_squared);
-        let per_l = squares.map(|square| 1.0 / libm::sqrt(square));
-        let v = [p[0] * per_l[0], p[1] * per_l[1], p[2] * per_l[2]];
-        // From the first corner to the others, or from the receiver, whichever is shorter and so has
-        // lost less: all that counts is the part across the first direction.
-        let shorter = |edge: DVec3, i: usize| if squares[i] < edge.length_squared() { p[i] } else { edge };
-        let ways = [shorter(b - a, 1), shorter(c - a, 2)];
-        // Products of differences of `f32` are exact: a needle has its area.
-        let det = v[0].dot(ways[0].cross(ways[1]));
-        Self { v, per_l, side: v[0].cross(ways[0]), base: v[0].cross(ways[1]), det }
+        let from = from.as_dvec3();
+        // Not from the receiver's distances, which far from a needle have lost its width.
+        let (p, edges) = ([a - from, b - from, c - from], [b - a, c - a]);
+        let l = p.map(DVec3::length);
+        let ways = [shorter(edges[0], p[1]), shorter(edges[1], p[2])];
+        Self { origin: p[0], edges, v: [p[0] / l[0], p[1] / l[1], p[2] / l[2]], l, ways }
+    }
+
+    /// Volume of the unit corners.
+    #[inline]
+    fn volume(&self) -> f64 {
+        self.v[0].dot(self.ways[0].cross(self.ways[1])).abs() / (self.l[1] * self.l[2])
     }
 
     /// `1 + Σ cos` as `(vᵢ + vₖ)·(vⱼ + vₖ)`. In a needle's plane the first and second are opposite to
     /// the third; their sums are small, and so is what they lose.
-    #[inline(always)]
+    #[inline]
     fn cosines(&self) -> f64 {
         let [v0, v1, v2] = self.v;
         let (c0, c1, c2) = (v1.dot(v2), v2.dot(v0), v0.dot(v1));
@@ -99,18 +102,29 @@ impl Relative {
         }
     }
 
-    #[inline(always)]
+    #[inline]
     fn solid_angle(&self) -> f32 {
-        let volume = self.det.abs() * (self.per_l[1] * self.per_l[2]);
-        let angle = 2.0 * num::atan2(volume as f32, self.cosines() as f32);
+        let angle = 2.0 * num::atan2(self.volume() as f32, self.cosines() as f32);
         // NaN at a corner.
-        num::larger(angle, 0.0)
+        if angle > 0.0 { angle } else { 0.0 }
     }
 }
 
-#[inline(always)]
-fn larger(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
+#[inline]
+fn shorter(a: DVec3, b: DVec3) -> DVec3 {
+    if b.length_squared() < a.length_squared() { b } else { a }
+}
+
+/// Unit tangent at the direction `v` on the side of `way`.
+#[inline]
+fn tangent(v: DVec3, way: DVec3) -> DVec3 {
+    (way - v * v.dot(way)).normalize()
+}
+
+/// `1 − cos` of an angle, itself or as what `1 + cos` leaves of 2: the smaller one has the digits.
+#[inline]
+fn above_or_rest(versine: f64, versine_below: f64) -> f64 {
+    if versine_below < 1.0 { 2.0 - versine_below } else { versine }
 }
 
 /// Solid angle of a triangle (sr), in `[0, 2π]`, from either side; 0 in its plane.
@@ -125,41 +139,30 @@ impl SphericalTriangle {
     ///
     /// `None` in its plane, when it has no area or is too small for `f32` from there, or when something
     /// is not finite.
-    #[inline(always)]
+    #[inline]
     #[must_use]
     pub fn new(from: Vec3, corners: &[Vec3; 3]) -> Option<Self> {
         let relative = Relative::new(from, corners);
         let solid_angle = relative.solid_angle();
-        let Relative { v: [v0, v1, v2], per_l: [per_l0, per_l1, per_l2], side, base, det } = relative;
-        let (side_length, base_length) = (side.length(), base.length());
-        let sin_side = side_length * per_l1;
-        let below = 0.5 * (v0 + v1).length_squared();
-        // Of 1 − cos and 1 + cos, the smaller one has the digits.
-        let (versine, cot_half) = if below < 1.0 {
-            (2.0 - below, sin_side / (2.0 - below))
-        } else {
-            (sin_side * sin_side / below, below / sin_side)
-        };
-        let versine = versine as f32;
-        // NaN is refused too; a volume above 0 has sides above 0.
-        if !(solid_angle >= f32::MIN_POSITIVE && versine >= f32::MIN_POSITIVE) {
-            return None;
-        }
-        let (per_side, per_both) = (1.0 / side_length, 1.0 / (side_length * base_length));
-        let aside = side * per_side;
-        let nearest = 1.0 / larger(larger(per_l0, per_l1), per_l2);
-        Some(Self {
+        let Relative { origin, edges, v: [v0, v1, _], l, ways } = relative;
+        let [along_side, along_base] = ways.map(|way| tangent(v0, way));
+        let sin_side = v0.cross(ways[0]).length() / l[1];
+        let across = v0.cross(ways[1]).length();
+        let cos_alpha = along_side.dot(along_base);
+        let versine_below = 0.5 * (v0 + v1).length_squared();
+        let versine = above_or_rest(sin_side * sin_side / versine_below, versine_below);
+        let seen = solid_angle >= f32::MIN_POSITIVE && versine > 0.0 && across > 0.0 && !cos_alpha.is_nan();
+        seen.then_some(Self {
             solid_angle,
-            apex: v1.as_vec3(),
-            toward_first: v1.cross(aside).as_vec3(),
-            toward_third: (if det < 0.0 { -aside } else { aside }).as_vec3(),
-            // Between the planes of both sides: their normals are the tangents, turned.
-            alpha: [(side.dot(base) * per_both) as f32, (det.abs() * per_both) as f32],
+            origin,
+            edges,
+            first: l[0],
+            second: l[1],
+            alpha: [cos_alpha, relative.volume() * l[2] / (across * sin_side)],
             versine,
-            cot_half: cot_half as f32,
-            base: [v0.dot(v2) as f32, (base_length * per_l2) as f32],
-            nearest: nearest as f32,
-            nearness: [per_l0, per_l1, per_l2].map(|per_l| (nearest * per_l) as f32),
+            versine_below,
+            cot_half: versine_below / sin_side,
+            base: [v0.dot(edges[1]), across],
         })
     }
 
@@ -170,123 +173,112 @@ impl SphericalTriangle {
         self.solid_angle
     }
 
-    /// Draws a place with the density `1 / solid_angle` (sr⁻¹) in its direction.
+    /// Draws a place with the density `1 / solid_angle` (sr⁻¹) in its direction; `None` when that is
+    /// the receiver's own, as far as double precision can tell.
     ///
     /// * `u` – two independent uniforms, each in `[0, 1)`
-    #[inline(always)]
+    #[inline]
     #[must_use]
-    pub fn sample(&self, u: [f32; 2]) -> TrianglePlace {
+    pub fn sample(&self, u: [f32; 2]) -> Option<TrianglePlace> {
         let arc = Arc::new(self, num::sin_cos(0.5 * u[0] * self.solid_angle));
+        // The arc's end: its share of the edge from the first to the third corner, and its distance.
+        let [along, across] = self.base;
+        let (rise, sin) = (across * arc.cos - along * arc.sin, self.first * arc.sin);
+        // At least the sine: the end is on the edge.
+        let rise = rise.max(sin).max(f64::MIN_POSITIVE);
+        let (share, reach) = (sin / rise, self.first * across / rise);
         // 1 − cos and 1 + cos each for itself: next to the second corner's opposite, one has no digits.
-        let (versine, below) = (u[1] * arc.versine, arc.versine_below + (1.0 - u[1]) * arc.versine);
-        let (sin, cos) =
-            (num::sqrt(versine * below), if versine < 1.0 { 1.0 - versine } else { below - 1.0 });
-        let tangent = self.toward_first * arc.tangent[0] + self.toward_third * arc.tangent[1];
-        // The place by the sines of the parts of both arcs: what the corners weigh, times distance.
-        let [cos_base, sin_base] = self.base;
-        let sin_max = num::sqrt(arc.versine * arc.versine_below);
-        let rest = num::larger(sin_max * cos - (1.0 - arc.versine) * sin, 0.0);
-        let weights = [
-            sin * num::larger(sin_base * arc.cos - cos_base * arc.sin, 0.0) * self.nearness[0],
-            rest * sin_base * self.nearness[1],
-            sin * arc.sin * self.nearness[2],
-        ];
-        let sum = weights[0] + weights[1] + weights[2];
-        TrianglePlace {
-            barycentric: if sum > 0.0 { [weights[1] / sum, weights[2] / sum] } else { [1.0, 0.0] },
-            direction: self.apex * cos + tangent * sin,
-            distance: self.nearest * if sum > 0.0 { sin_max * sin_base / sum } else { 1.0 },
-        }
+        let u = f64::from(u[1]);
+        let (versine, below) = (u * arc.versine, arc.versine_below + (1.0 - u) * arc.versine);
+        let (sin_max, sin) = (sqrt(arc.versine * arc.versine_below), sqrt(versine * below));
+        let rest = sin_max * (1.0 - versine) - (1.0 - arc.versine) * sin;
+        // What the arc's ends weigh: sines of the other's side of the arc, times its distance.
+        let (out, back) = (self.second * sin, reach * rest.max(0.0));
+        let part = if out > 0.0 { out / (out + back) } else { 0.0 };
+        let (b1, b2) = (1.0 - part, part * share);
+        let way = self.origin + self.edges[0] * b1 + self.edges[1] * b2;
+        let distance = way.length();
+        (distance as f32 > 0.0).then(|| TrianglePlace {
+            barycentric: [b1, b2],
+            direction: (way / distance).as_vec3(),
+            distance: distance as f32,
+        })
+    }
+
+    /// What a unit direction meets of the triangle's plane, outside of it as well; `None` along the plane
+    /// and away from it.
+    #[must_use]
+    pub fn meet(&self, direction: Vec3) -> Option<TrianglePlace> {
+        let ([to_second, to_third], way) = (self.edges, direction.as_dvec3());
+        // Cramer's rule for `origin + b1 e1 + b2 e2 = distance direction`.
+        let across = to_third.cross(way);
+        let determinant = to_second.dot(across);
+        let b1 = -self.origin.dot(across) / determinant;
+        let b2 = self.origin.dot(to_second.cross(way)) / determinant;
+        let distance = (self.origin.dot(to_second.cross(to_third)) / determinant) as f32;
+        (distance > 0.0 && b1.is_finite() && b2.is_finite()).then_some(TrianglePlace {
+            barycentric: [b1, b2],
+            direction,
+            distance,
+        })
     }
 
     /// Inverse of [`SphericalTriangle::sample`]; each in `[0, 1)`.
     ///
-    /// A small triangle's place is better known by its coordinates, a large one's by its direction.
+    /// * `barycentric` – of the place
     #[must_use]
-    pub fn invert(&self, place: &TrianglePlace) -> [f32; 2] {
-        let u = if self.solid_angle < 1.0 {
-            self.invert_barycentric(place.barycentric)
-        } else {
-            self.invert_direction(place.direction)
-        };
-        u.map(num::clamp_unit)
-    }
-
-    fn invert_barycentric(&self, [b1, b2]: [f32; 2]) -> [f32; 2] {
-        // The place as a sum of the corners' directions, and that of the first and third alone.
-        let first = (1.0 - b1 - b2).max(0.0) / self.nearness[0];
-        let second = b1.max(0.0) / self.nearness[1];
-        let third = b2.max(0.0) / self.nearness[2];
-        let [cos_base, sin_base] = self.base;
-        let (x, y) = (first + third * cos_base, third * sin_base);
-        let reach = num::sqrt(x * x + y * y);
-        let tan_half = y / (reach + x).max(f32::MIN_POSITIVE);
+    pub fn invert(&self, barycentric: [f64; 2]) -> [f32; 2] {
+        let b1 = barycentric[0].clamp(0.0, 1.0);
+        let part = 1.0 - b1;
+        let b2 = barycentric[1].max(0.0).min(part);
+        let share = if part > 0.0 { b2 / part } else { 0.0 };
+        // The arc's end from the first corner: tan(s/2), then the area.
+        let [along, across] = self.base;
+        let (x, y) = (self.first + share * along, share * across);
+        let reach = sqrt(x * x + y * y);
+        let x = if x < 0.0 { y * y / (reach - x) } else { reach + x };
         let [cos_a, sin_a] = self.alpha;
-        let half = num::atan2(tan_half * sin_a, self.cot_half + tan_half * cos_a);
-        let arc = Arc::new(self, num::sin_cos(half));
-        let sin = reach * num::sqrt(arc.versine * arc.versine_below);
-        let cos = second + reach * (1.0 - arc.versine);
-        let radius = num::sqrt(sin * sin + cos * cos);
-        let versine = if cos > 0.0 { sin * sin / (radius * (radius + cos)) } else { 1.0 - cos / radius };
-        [2.0 * half / self.solid_angle, versine / arc.versine]
-    }
-
-    fn invert_direction(&self, direction: Vec3) -> [f32; 2] {
-        let (x, y) = (direction.dot(self.toward_first), direction.dot(self.toward_third));
-        let sin2 = x * x + y * y;
-        let cos = direction.dot(self.apex);
-        let versine = if cos > 0.0 { sin2 / (1.0 + cos) } else { 1.0 - cos };
-        let inverse = 1.0 / num::sqrt(sin2).max(f32::MIN_POSITIVE);
-        let (cos_b, sin_b) = (x * inverse, (y * inverse).max(0.0));
-        // Area from two angles and the side between them:
-        // tan(ω/2) = n sin α sin β / (sin(α + β) + sin γ), or the other root's form.
-        let [cos_a, sin_a] = self.alpha;
-        let (cosines, sines) = (cos_a * cos_b, sin_a * sin_b);
-        let sum = sin_a * cos_b + cos_a * sin_b;
-        let product = self.versine * sines;
-        let other = (2.0 - self.versine) * sines - 2.0 * cosines;
-        let gamma = num::sqrt(sum * sum + product * other);
-        let half = if sum > 0.0 { num::atan2(product, sum + gamma) } else { num::atan2(gamma - sum, other) };
-        let arc = Arc::new(self, num::sin_cos(half));
-        [2.0 * half / self.solid_angle, versine / arc.versine]
+        let half = num::atan2((y * sin_a) as f32, (self.cot_half * x + y * cos_a) as f32);
+        // 1 − cos is sin² / (1 + cos), and the sines are as the parts of the line to the arc's end.
+        let second = (self.origin + self.edges[0]) / self.second;
+        let end = self.origin + self.edges[1] * share;
+        let place = self.origin + self.edges[0] * b1 + self.edges[1] * b2;
+        let (end_length, length) = (end.length(), place.length());
+        let ratio = part * end_length / length;
+        let below = (second + end / end_length).length_squared();
+        let share = ratio * ratio * below / (second + place / length).length_squared();
+        [2.0 * half / self.solid_angle, share as f32].map(num::clamp_unit)
     }
 }
 
 /// The arc from the second corner that cuts off a part of the triangle.
 struct Arc {
     /// Cosine and sine of the way along `v₀ v₂`.
-    cos: f32,
-    sin: f32,
+    cos: f64,
+    sin: f64,
     /// `1 − cos` and `1 + cos` of the arc's length.
-    versine: f32,
-    versine_below: f32,
-    /// Unit tangent at the second corner: toward the first, toward the third.
-    tangent: [f32; 2],
+    versine: f64,
+    versine_below: f64,
 }
 
 impl Arc {
     /// * `sin_h`, `cos_h` – of half the area to cut off
     #[inline]
     fn new(triangle: &SphericalTriangle, (sin_h, cos_h): (f32, f32)) -> Self {
-        let SphericalTriangle { alpha: [cos_a, sin_a], versine: n, cot_half, .. } = *triangle;
-        let per_n = sin_h / n;
+        let SphericalTriangle { alpha: [cos_a, sin_a], versine, versine_below, cot_half, .. } = *triangle;
+        let (sin_h, cos_h) = (f64::from(sin_h), f64::from(cos_h));
         let (x, y) = (cos_h * sin_a - sin_h * cos_a, sin_h * cot_half);
-        let inverse = 1.0 / num::larger(x * x + y * y, f32::MIN_POSITIVE);
-        let z = cos_h * sin_a - 2.0 * per_n * cos_a;
-        let w = sin_h * cot_half * cot_half * sin_a;
-        let norm2 = z * z + w * w;
-        let tangent = [cos_h * z - sin_h * w, 2.0 * per_n * x];
-        // As long as the root of norm2, but for round-off next to a needle.
-        let length = num::sqrt(tangent[0] * tangent[0] + tangent[1] * tangent[1]);
-        // The smaller of the two has the digits; they add up to 2.
-        let (versine, below) = (n * norm2 * inverse, (2.0 - n) * sin_a * sin_a * inverse);
-        let (versine, below) = if below < 1.0 { (2.0 - below, below) } else { (versine, 2.0 - versine) };
+        let inverse = 1.0 / (x * x + y * y);
+        let z = cos_h * sin_a - 2.0 * (sin_h / versine) * cos_a;
+        let w = y * cot_half * sin_a;
+        // Sine and cosine are of single precision: their squares add up to 1, but for rounding.
+        let below = (sin_h * sin_h + cos_h * cos_h) * sin_a * sin_a;
+        let versine_below = versine_below * below * inverse;
         Self {
             cos: (x - y) * (x + y) * inverse,
-            sin: num::larger(2.0 * x * y * inverse, 0.0),
-            versine,
-            versine_below: below,
-            tangent: if length > 0.0 { tangent.map(|t| t / length) } else { [1.0, 0.0] },
+            sin: (2.0 * x * y * inverse).max(0.0),
+            versine: above_or_rest(versine * (z * z + w * w) * inverse, versine_below),
+            versine_below,
         }
     }
 }

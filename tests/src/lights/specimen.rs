@@ -1,6 +1,6 @@
 //! The shapes that lights have, as the checks need them.
 
-use crate::oracle::{self, Patch};
+use crate::oracle::{self, Outlook, Patch};
 use halflight::glam::{DVec3, Vec3};
 use halflight::light::SampledShape;
 use halflight::shape::{Cylinder, Disk, Polygon, Rectangle, Sphere, Triangle};
@@ -21,6 +21,11 @@ pub trait Specimen: SampledShape + std::fmt::Debug {
 
     /// The surface in double precision.
     fn patch(&self) -> Patch;
+
+    /// The surface as it is seen from `point`, in cells.
+    fn outlook(&self, point: DVec3) -> Outlook {
+        Outlook::new(&self.patch(), point)
+    }
 
     /// True when only one side can be seen from one place.
     const FLAT: bool = true;
@@ -136,6 +141,11 @@ impl Specimen for Polygon {
     fn patch(&self) -> Patch {
         let corner = |i: usize| self.corners()[i].as_dvec3();
         Patch::Triangle(corner(0), corner(1), corner(2))
+    }
+
+    fn outlook(&self, point: DVec3) -> Outlook {
+        let corners: Vec<DVec3> = self.corners().iter().map(|p| p.as_dvec3()).collect();
+        Outlook::of_polygon(&corners, point)
     }
 
     fn solid_angle(&self, from: Vec3) -> f64 {

@@ -9,6 +9,8 @@ pub enum Light {
     Rectangle,
     /// A triangle.
     Triangle,
+    /// A convex polygon of five corners.
+    Polygon,
     /// A disk, or an ellipse.
     Disk,
     /// A sphere.
@@ -19,7 +21,8 @@ pub enum Light {
 
 impl Light {
     /// All of them. To add a light: a variant, its name, and its line in `setup.rs`.
-    pub const ALL: [Self; 5] = [Self::Rectangle, Self::Triangle, Self::Disk, Self::Sphere, Self::Cylinder];
+    pub const ALL: [Self; 6] =
+        [Self::Rectangle, Self::Triangle, Self::Polygon, Self::Disk, Self::Sphere, Self::Cylinder];
 
     /// Its name.
     #[must_use]
@@ -27,6 +30,7 @@ impl Light {
         match self {
             Self::Rectangle => "rectangle",
             Self::Triangle => "triangle",
+            Self::Polygon => "polygon",
             Self::Disk => "disk",
             Self::Sphere => "sphere",
             Self::Cylinder => "cylinder",

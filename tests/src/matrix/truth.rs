@@ -2,7 +2,7 @@
 
 use super::setup::Setup;
 use crate::lights::Specimen;
-use crate::oracle::{Amounts, CELLS, Outlook, Patch};
+use crate::oracle::{Amounts, CELLS, Outlook};
 use halflight::glam::DVec3;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -59,8 +59,7 @@ impl Truth {
     }
 
     fn new<S: Specimen>(setup: &Setup<S>) -> Self {
-        let (patch, point) = (setup.shape.patch(), setup.from.point.as_dvec3());
-        let outlook = Outlook::new(&patch, point);
+        let outlook = setup.shape.outlook(setup.from.point.as_dvec3());
         let normal = setup.from.normal.as_dvec3().normalize();
         let cells = outlook.seen(DVec3::ZERO, normal);
         let total = sum(&cells);
@@ -73,14 +72,7 @@ impl Truth {
                 DVec3::from_array(std::array::from_fn(|i| f64::from(u8::from(i == axis)))) * setup.grid;
             let [a, b] = [1.0, -1.0].map(|k| {
                 let normal = (normal + turn * (TURN * k)).normalize();
-                match patch {
-                    // What is computed from the differences of corners moves with them.
-                    Patch::Triangle(p, q, r) if !setup.aligned => {
-                        Outlook::new(&Patch::Triangle(p, q - step * k, r + step * k), point)
-                            .seen(step * k, normal)
-                    }
-                    _ => outlook.seen(step * k, normal),
-                }
+                outlook.seen(step * k, normal)
             });
             for i in 0..CELLS {
                 slack[i] = slack[i].plus(farther(&cells[i], &a[i], &b[i]));
