@@ -55,7 +55,7 @@ pub(crate) fn unit(v: Vec3) -> Option<Vec3> {
     let squared = v.length_squared();
     // Squares in here have lost no digits to underflow.
     if squared > 1e-24 && squared < 1e30 {
-        return Some(v * (1.0 / num::sqrt(squared)));
+        return Some(v / num::sqrt(squared));
     }
     unit_of_extreme(v)
 }
