@@ -57,7 +57,10 @@ pub(super) fn faces(chart: &Chart, sides: Sides) -> bool {
 /// * `distance` – from the receiver (m)
 #[inline]
 pub(super) fn is_near(at: &SurfacePoint, wi: Vec3, distance: f32) -> bool {
-    at.error.max_element() * at.normal.dot(wi).abs() > num::gamma(8) * distance
+    // Rounded coordinates turn the way by their whole error to the side, and by the cosine of it up or
+    // down; which counts depends on how the light lies, so the geometric mean of both decides.
+    let turned = at.error.max_element() * num::sqrt(at.normal.dot(wi).abs());
+    turned > num::gamma(8) * distance
 }
 
 /// Projected solid angle of what `from` sees of the emitting sides above its horizon (sr).

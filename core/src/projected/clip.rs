@@ -48,8 +48,11 @@ impl<const N: usize> Above<N> {
         let (s, t, n) = (frame.s.as_dvec3(), frame.t.as_dvec3(), frame.n.as_dvec3());
         let local = |v: DVec3| DVec3::new(v.dot(s), v.dot(t), v.dot(n));
         let (r, u, v) = (local(chart.origin), local(chart.u), local(chart.v));
-        let across = |a: DVec3, b: DVec3| a.truncate().perp_dot(b.truncate());
-        let zenith = DVec3::new(across(v, r), across(r, u), across(u, v));
+        // Cross products before they are turned: of a needle along an axis they lose nothing.
+        let pole = s.cross(t);
+        let Chart { origin, u: first, v: second, .. } = *chart;
+        let across = |a: DVec3, b: DVec3| pole.dot(a.cross(b));
+        let zenith = DVec3::new(across(second, origin), across(origin, first), across(first, second));
         let mut above = Self { frame, volume, zenith, corners: [Corner::ZERO; N], len: 0 };
         if !(volume > 0.0 && volume < f64::INFINITY) {
             return above;
