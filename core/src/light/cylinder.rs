@@ -7,7 +7,7 @@ use crate::geom::{Frame, unit};
 use crate::num::{self, FRAC_PI_2, PI, TAU};
 use crate::shape::{Cylinder, SurfacePoint};
 use crate::solid_angle::{FromEnd, Span, Sweep};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 /// The side of a tube that faces the receiver, close to uniform over its solid angle: the plane's
 /// angle about a parallel of the tube's axis through the receiver is drawn from a table; the
@@ -30,28 +30,59 @@ pub struct CylinderSlab {
     sweep: Sweep,
 }
 
+/// A receiver in the coordinates of a tube's axis.
+///
+/// In double precision: a milliradian above the wall and a thousand lengths away, or close to a wall
+/// whose axis is not along one of the coordinates, single precision does not know on which side of it
+/// the receiver is.
+struct Foot {
+    /// Unit vectors along the axis, and to it from the receiver.
+    axis: DVec3,
+    toward: Option<DVec3>,
+    /// Height of the lower end above the receiver, length, and distance from the axis (m).
+    start: f64,
+    length: f64,
+    distance: f64,
+}
+
+impl Foot {
+    #[inline]
+    fn new(tube: &Cylinder, from: &Receiver) -> Self {
+        let axis = tube.axis().as_dvec3();
+        let length = axis.length();
+        let axis = axis / length;
+        let to_base = tube.base().as_dvec3() - from.point.as_dvec3();
+        let start = axis.dot(to_base);
+        let aside = to_base - axis * start;
+        let distance = aside.length();
+        let toward = (distance > 0.0).then(|| aside / distance);
+        Self { axis, toward, start, length, distance }
+    }
+
+    /// How far outside of the wall, which goes on for ever, the receiver is (m); negative inside.
+    #[inline]
+    fn gap(&self, tube: &Cylinder) -> f32 {
+        (self.distance - f64::from(tube.radius())) as f32
+    }
+}
+
 impl CylinderSlab {
     /// * `inside` – whether it is the inner wall that is seen, from within
-    fn new(tube: &Cylinder, from: &Receiver, inside: bool) -> Option<Self> {
-        let (axis, to_base) = (tube.unit_axis(), tube.base() - from.point);
-        let start = num::sum_of_products(axis.to_array(), to_base.to_array());
-        let aside = to_base - axis * start;
-        let toward = unit(aside - axis * aside.dot(axis)).unwrap_or(Frame::from_normal(axis).s);
+    fn new(tube: &Cylinder, foot: &Foot, inside: bool) -> Option<Self> {
+        let axis = foot.axis.as_vec3();
+        let toward = foot.toward.map_or(Frame::from_normal(axis).s, |v| v.as_vec3());
         let mut slab = Self {
             tube: *tube,
             axis,
             toward,
             across: axis.cross(toward),
-            start,
-            length: tube.axis().length(),
-            distance: aside.dot(toward).max(0.0),
-            gap: clearance(tube, from.point),
+            start: foot.start as f32,
+            length: foot.length as f32,
+            distance: foot.distance as f32,
+            gap: foot.gap(tube),
             sweep: Sweep::EMPTY,
         };
-        if !inside {
-            slab.gap = slab.gap.max(f32::MIN_POSITIVE);
-            slab.distance = slab.gap + tube.radius();
-        } else if slab.gap > 0.0 {
+        if inside && slab.gap > 0.0 {
             (slab.gap, slab.distance) = (0.0, tube.radius());
         }
         // A right angle from the wall itself; less from afar.
@@ -133,16 +164,6 @@ impl SurfaceView for CylinderSlab {
     }
 }
 
-/// How far a point is from the wall of a tube that goes on for ever (m); negative inside.
-fn clearance(tube: &Cylinder, point: Vec3) -> f32 {
-    let (axis, v) = (tube.unit_axis(), tube.base() - point);
-    let aside = v - axis * num::sum_of_products(axis.to_array(), v.to_array());
-    let radius = tube.radius();
-    let power =
-        num::sum_of_products([aside.x, aside.y, aside.z, radius], [aside.x, aside.y, aside.z, -radius]);
-    power / (aside.length() + radius)
-}
-
 impl SampledShape for Cylinder {
     type View = View<Self, CylinderSlab, NoView>;
 
@@ -165,10 +186,13 @@ impl SampledShape for Cylinder {
     /// By area where the inner wall is seen through an open end, and where both sides emit.
     #[inline]
     fn view(&self, from: &Receiver, method: SurfaceDensity, sides: Sides) -> Option<Self::View> {
-        let reach = self.base().abs().max_element() + self.axis().abs().max_element() + self.radius();
-        let (gap, rounding) = (clearance(self, from.point), num::gamma(16) * reach);
-        let (outward, inside) = (!self.is_inward(), gap < rounding);
-        if sides == Sides::Front && outward && !(gap > -rounding) {
+        let foot = Foot::new(self, from);
+        let gap = foot.gap(self);
+        let outward = !self.is_inward();
+        // Its own points do not see an outer wall; an inner one they do, on whichever side they are.
+        let reach = self.base().length() + self.axis().length() + self.radius();
+        let inside = gap < num::gamma(10) * reach;
+        if sides == Sides::Front && outward && !(gap > 0.0) {
             return None;
         }
         let (centre, radius) = (self.base() + self.axis() * 0.5, 0.5 * self.axis().length() + self.radius());
@@ -176,6 +200,6 @@ impl SampledShape for Cylinder {
         if method == SurfaceDensity::Area || sides == Sides::Both || !(outward || inside) {
             return Some(View::Area(AreaView::new(*self, from)));
         }
-        CylinderSlab::new(self, from, !outward).map(View::SolidAngle)
+        CylinderSlab::new(self, &foot, !outward).map(View::SolidAngle)
     }
 }

@@ -56,25 +56,32 @@ impl Span {
 
     /// The point with the share `u` of the extent before it: its offset from the foot (m), and the
     /// fraction of the span before it.
+    ///
+    /// Derived: from the sine of an end and `δ = |hᵢ − h|`, the squared cosine is
+    /// `c² = cᵢ² + δ |hᵢ + h|`; of the ends it is the one that is farther up, so that nothing cancels
+    /// however near the axis the span is.
     #[inline]
     pub(crate) fn at(&self, u: f32) -> (f32, f32) {
         let (span, turn) = self.turned();
-        let delta = span.sines(span.length) * if turn { 1.0 - u } else { u };
-        let (x0, t) = (span.start, span.away);
-        let r0 = num::sqrt(x0 * x0 + t * t);
-        let (c0, h) = (t / r0, x0 / r0 + delta);
-        let c = num::sqrt((1.0 - h) * (1.0 + h)).max(f32::MIN_POSITIVE);
-        let before = if x0 < 0.0 {
+        let u = if turn { 1.0 - u } else { u };
+        let extent = span.sines(span.length);
+        let (before, after) = (extent * u, extent * (1.0 - u));
+        let (x0, x1, t) = (span.start, span.start + span.length, span.away);
+        let (r0, r1) = (num::sqrt(x0 * x0 + t * t), num::sqrt(x1 * x1 + t * t));
+        let (c0, c1, h0, h1) = (t / r0, t / r1, x0 / r0, x1 / r1);
+        let h = h0 + before;
+        let square = if h < 0.0 { c0 * c0 - before * (h0 + h) } else { c1 * c1 + after * (h1 + h) };
+        let c = num::sqrt(square).max(f32::MIN_POSITIVE);
+        let (x, part) = if x0 < 0.0 {
             // The foot is within: no digit is lost from it.
-            t * (h / c) - x0
+            let x = (t * (h / c)).clamp(x0, x1);
+            (x, x - x0)
         } else {
             // x − x₀ = t sin(ε − ε₀) / (c₀ c)
-            t * (delta / c) * ((1.0 + c * c0 + h * (x0 / r0)) / ((c + c0) * c0))
+            let part = (t * (before / c) * ((1.0 + c * c0 + h * h0) / ((c + c0) * c0))).min(span.length);
+            (x0 + part, part)
         };
-        let before = before.clamp(0.0, span.length);
-        let (x, fraction) = (x0 + before, before / span.length);
-        // Where the foot is within, close to it.
-        let x = if x0 < 0.0 { (t * (h / c)).clamp(x0, x0 + span.length) } else { x };
+        let fraction = (part / span.length).min(1.0);
         if turn { (-x, 1.0 - fraction) } else { (x, fraction) }
     }
 
