@@ -94,14 +94,15 @@ impl Span {
     }
 }
 
-/// A density over the angles of a sweep, `[middle − half, middle + half]`.
+/// A density over the turns of a sweep: half-angle tangents or the like, so that no trigonometry is
+/// needed.
 ///
 /// It is piecewise linear, but for the first and the last interval: there it is constant, for a
 /// light whose extent ends abruptly, falls to 0 as a root, for one with a round edge, or blends the
 /// two; a light that is seen more toward an end has a line there too.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Sweep {
-    middle: f32,
+    /// Half of its width.
     half: f32,
     /// Density over an interval at its ends, as a share of the whole.
     density: [f32; INTERVALS + 1],
@@ -112,35 +113,59 @@ pub(crate) struct Sweep {
 impl Sweep {
     /// What is there before anything is tabulated.
     pub(crate) const EMPTY: Self =
-        Self { middle: 0.0, half: 0.0, density: [0.0; INTERVALS + 1], ends: [End { round: 0.0 }; 2] };
+        Self { half: 0.0, density: [0.0; INTERVALS + 1], ends: [End { round: 0.0 }; 2] };
 
-    /// Tabulates what is seen between two angles (rad); `None` when that is nothing.
+    /// Tabulates what is seen; `None` when that is nothing.
     ///
-    /// * `extent` – the light's extent in `h` at an angle
-    pub(crate) fn new(low: f32, high: f32, extent: impl Fn(f32) -> f32) -> Option<Self> {
-        let mut sweep = Self { middle: 0.5 * (low + high), half: 0.5 * (high - low), ..Self::EMPTY };
-        let seen = |place: f32| extent(sweep.middle + sweep.half * (STEP * place - 1.0));
+    /// * `half` – half of the width of the sweep
+    /// * `seen` – solid angle per turn
+    #[inline]
+    pub(crate) fn new(half: f32, seen: impl Fn(FromEnd) -> f32) -> Option<Self> {
+        let at = |place: f32, low: bool| seen(FromEnd { turn: half * (STEP * place), low });
         let mut density = [0.0; INTERVALS + 1];
         for (i, d) in density.iter_mut().enumerate().take(INTERVALS).skip(1) {
-            *d = seen(i as f32);
+            let low = i <= MIDDLE;
+            *d = at(if low { i } else { INTERVALS - i } as f32, low);
         }
-        let halfway = [seen(0.5), seen(INTERVALS as f32 - 0.5)];
+        Self::from_values(half, density, [at(0.5, true), at(0.5, false)])
+    }
+
+    /// The same for a light of which both sides look alike.
+    ///
+    /// * `seen` – solid angle per turn, counted from an end
+    #[inline]
+    pub(crate) fn symmetric(half: f32, seen: impl Fn(f32) -> f32) -> Option<Self> {
+        let at = |place: f32| seen(half * (STEP * place));
+        let mut density = [0.0; INTERVALS + 1];
+        for (i, d) in density.iter_mut().enumerate().take(MIDDLE + 1).skip(1) {
+            *d = at(i as f32);
+        }
+        for i in 1..MIDDLE {
+            density[INTERVALS - i] = density[i];
+        }
+        Self::from_values(half, density, [at(0.5); 2])
+    }
+
+    /// * `density` – at the inner nodes
+    /// * `halfway` – in the middle of the first and the last interval
+    #[inline]
+    fn from_values(half: f32, mut density: [f32; INTERVALS + 1], halfway: [f32; 2]) -> Option<Self> {
         let next = [density[1], density[INTERVALS - 1]];
         let ends = [End::new(halfway[0] / next[0]), End::new(halfway[1] / next[1])];
         // One that rises to an end goes on as a line.
         let rising = |i: usize| (2.0 * (halfway[i] - next[i])).max(0.0);
         let line = |i: usize| if rising(i) > 0.0 { next[i] + rising(i) } else { 0.0 };
         (density[0], density[INTERVALS]) = (line(0), line(1));
-        (sweep.density, sweep.ends) = (density, ends);
+        let mut sweep = Self { half, density, ends };
         let scale = 1.0 / (0..INTERVALS).map(|i| sweep.mass(i)).sum::<f32>();
-        if !(sweep.half > 0.0 && scale > 0.0 && scale < f32::INFINITY) {
+        if !(half > 0.0 && scale > 0.0 && scale < f32::INFINITY) {
             return None;
         }
         sweep.density = density.map(|d| d * scale);
         Some(sweep)
     }
 
-    /// Half of the sweep (rad).
+    /// Half of the width of the sweep.
     #[inline]
     pub(crate) fn half(&self) -> f32 {
         self.half
@@ -163,44 +188,44 @@ impl Sweep {
         self.end(i).map_or(0.5 * sum, |end| sum / end.density(1.0))
     }
 
-    /// Draws an angle (rad).
+    /// Draws a turn, counted from the nearer end.
     #[inline]
-    pub(crate) fn sample(&self, u: f32) -> f32 {
+    pub(crate) fn sample(&self, u: f32) -> FromEnd {
         let (mut left, mut i) = (u, 0);
         while i < INTERVALS - 1 && left >= self.mass(i) {
             left -= self.mass(i);
             i += 1;
         }
-        let mass = self.mass(i);
+        let low = i < MIDDLE;
+        // Fraction of the interval between its outer end and the turn.
         let t = match self.end(i) {
-            Some(end) if i == 0 => end.sample((left / mass).min(1.0)),
-            Some(end) => 1.0 - end.sample((1.0 - left / mass).max(0.0)),
+            Some(end) if low => end.sample((left / self.mass(i)).min(1.0)),
+            Some(end) => end.sample((1.0 - left / self.mass(i)).max(0.0)),
             None => {
                 // Root of a t + (b − a) t² / 2 = left, in the form that does not cancel.
                 let (a, b) = (self.density[i], self.density[i + 1]);
                 let root = a + num::sqrt(a * a + 2.0 * (b - a) * left);
-                if root > 0.0 { (2.0 * left / root).min(1.0) } else { 0.0 }
+                let t = if root > 0.0 { (2.0 * left / root).min(1.0) } else { 0.0 };
+                if low { t } else { 1.0 - t }
             }
         };
-        self.middle + self.half * (STEP * (i as f32 + t) - 1.0)
+        let outer = if low { i } else { INTERVALS - 1 - i };
+        FromEnd { turn: self.half * (STEP * (outer as f32 + t)), low }
     }
 
-    /// Where an angle is in the table: the interval, and the fraction of it before and after the
-    /// angle.
+    /// Where a turn is in the table: the interval, and the fraction of it before and after the turn.
     #[inline]
     fn find(&self, from: FromEnd) -> (usize, [f32; 2]) {
-        let rest = (from.angle / self.half).clamp(0.0, 2.0);
-        let (below, rest) = if rest > 1.0 { (!from.low, 2.0 - rest) } else { (from.low, rest) };
-        let place = rest / STEP;
-        let end = (place as usize).min(INTERVALS / 2 - 1);
+        let place = (from.turn / self.half).clamp(0.0, 1.0) / STEP;
+        let end = (place as usize).min(MIDDLE - 1);
         let t = place - end as f32;
-        if below { (end, [t, 1.0 - t]) } else { (INTERVALS - 1 - end, [1.0 - t, t]) }
+        if from.low { (end, [t, 1.0 - t]) } else { (INTERVALS - 1 - end, [1.0 - t, t]) }
     }
 
-    /// Density of an angle (rad⁻¹).
+    /// Density of a turn.
     #[inline]
-    pub(crate) fn pdf(&self, angle: FromEnd) -> f32 {
-        let (i, [before, after]) = self.find(angle);
+    pub(crate) fn pdf(&self, turn: FromEnd) -> f32 {
+        let (i, [before, after]) = self.find(turn);
         let density = match self.end(i) {
             Some(end) => self.mass(i) * end.density(if i == 0 { before } else { after }),
             None => self.density[i] * after + self.density[i + 1] * before,
@@ -209,8 +234,8 @@ impl Sweep {
     }
 
     /// Inverse of [`Sweep::sample`].
-    pub(crate) fn share(&self, angle: FromEnd) -> f32 {
-        let (i, [before, after]) = self.find(angle);
+    pub(crate) fn share(&self, turn: FromEnd) -> f32 {
+        let (i, [before, after]) = self.find(turn);
         let below: f32 = (0..i).map(|j| self.mass(j)).sum();
         let (a, b) = (self.density[i], self.density[i + 1]);
         below
@@ -267,14 +292,17 @@ impl End {
     }
 }
 
-/// An angle of a sweep, counted from one of its ends (rad): where the light's edge is round, the
-/// density is a quotient of what vanishes there.
+/// A turn of a sweep, counted inward from the nearer of its ends: where the light's edge is round,
+/// the density is a quotient of what vanishes there.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct FromEnd {
-    pub(crate) angle: f32,
+    pub(crate) turn: f32,
     /// True when it is counted from the low end.
     pub(crate) low: bool,
 }
 
 /// Width of an interval, for a sweep of 2.
 const STEP: f32 = 2.0 / INTERVALS as f32;
+
+/// Intervals on either side.
+const MIDDLE: usize = INTERVALS / 2;
