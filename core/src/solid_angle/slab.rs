@@ -98,8 +98,8 @@ impl Span {
 /// needed.
 ///
 /// It is piecewise linear, but for the first and the last interval: there it is constant, for a
-/// light whose extent ends abruptly, falls to 0 as a root, for one with a round edge, or blends the
-/// two; a light that is seen more toward an end has a line there too.
+/// light whose extent falls off toward its end, or falls to 0 as a root, for one with a round edge,
+/// or blends the two; a light that ends abruptly has a line there too.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Sweep {
     /// Half of its width.
@@ -152,9 +152,9 @@ impl Sweep {
     fn from_values(half: f32, mut density: [f32; INTERVALS + 1], halfway: [f32; 2]) -> Option<Self> {
         let next = [density[1], density[INTERVALS - 1]];
         let ends = [End::new(halfway[0] / next[0]), End::new(halfway[1] / next[1])];
-        // One that rises to an end goes on as a line.
-        let rising = |i: usize| (2.0 * (halfway[i] - next[i])).max(0.0);
-        let line = |i: usize| if rising(i) > 0.0 { next[i] + rising(i) } else { 0.0 };
+        // One that does not fall as a rim does goes on as a line.
+        let is_abrupt = |i: usize| halfway[i] > ABRUPT * next[i];
+        let line = |i: usize| if is_abrupt(i) { 2.0 * halfway[i] - next[i] } else { 0.0 };
         (density[0], density[INTERVALS]) = (line(0), line(1));
         let mut sweep = Self { half, density, ends };
         let scale = 1.0 / (0..INTERVALS).map(|i| sweep.mass(i)).sum::<f32>();
@@ -171,7 +171,7 @@ impl Sweep {
         self.half
     }
 
-    /// How the density ends in an interval at an end; `None` elsewhere, and where it rises as a line.
+    /// How the density ends in an interval at an end; `None` elsewhere, and where it ends as a line.
     #[inline]
     fn end(&self, i: usize) -> Option<End> {
         match i {
@@ -303,6 +303,10 @@ pub(crate) struct FromEnd {
 
 /// Width of an interval, for a sweep of 2.
 const STEP: f32 = 2.0 / INTERVALS as f32;
+
+/// From which ratio of the value halfway through the last interval to that before it a light ends
+/// abruptly. The angle per turn alone makes it 0.88 at a right angle; a circle's rim, 0.73.
+const ABRUPT: f32 = 0.86;
 
 /// Intervals on either side.
 const MIDDLE: usize = INTERVALS / 2;
