@@ -7,7 +7,7 @@
 use crate::num;
 
 /// Intervals of a sweep's table. With 8, the relative variance of the solid angle is 1e-4 for a
-/// disk five radii away, 3e-3 for one that is almost touched, 1e-3 for a tube alongside; 0.4 for a
+/// disk five radii away, up to 8e-3 for one that is near, 5e-5 for a tube alongside; up to 0.4 for a
 /// tube that is seen along its wall, from a fiftieth of its radius off it and half a radius before it.
 const INTERVALS: usize = 8;
 
