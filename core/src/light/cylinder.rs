@@ -5,10 +5,10 @@ use super::{
     View,
 };
 use crate::geom::{Frame, unit};
-use crate::num::{self, FRAC_PI_2, PI, TAU};
+use crate::num::{self, TAU};
 use crate::shape::{Cylinder, SurfacePoint};
 use crate::solid_angle::{FromEnd, Span, Sweep};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 /// The side of a tube that faces the receiver, close to uniform over its solid angle: the plane's
 /// angle about a parallel of the tube's axis through the receiver is drawn from a table; the
@@ -28,45 +28,94 @@ pub struct CylinderSlab {
     /// Distance of the receiver from the tube's axis, and from its wall (m); the latter negative inside.
     distance: f32,
     gap: f32,
+    /// Whether it is the inner wall that is seen, from within.
+    inside: bool,
     sweep: Sweep,
+}
+
+/// A receiver in the coordinates of a tube's axis.
+///
+/// In double precision: a milliradian above the wall and a thousand lengths away, or close to a wall
+/// whose axis is not along one of the coordinates, single precision does not know on which side of it
+/// the receiver is.
+struct Foot {
+    /// Unit vectors along the axis, and to it from the receiver.
+    axis: DVec3,
+    toward: Option<DVec3>,
+    /// Height of the lower end above the receiver, length, and distance from the axis (m).
+    start: f64,
+    length: f64,
+    distance: f64,
+}
+
+impl Foot {
+    #[inline]
+    fn new(tube: &Cylinder, from: &Receiver) -> Self {
+        let axis = tube.axis().as_dvec3();
+        let length = axis.length();
+        let axis = axis / length;
+        let to_base = tube.base().as_dvec3() - from.point.as_dvec3();
+        let start = axis.dot(to_base);
+        let aside = to_base - axis * start;
+        let distance = aside.length();
+        let toward = (distance > 0.0).then(|| aside / distance);
+        Self { axis, toward, start, length, distance }
+    }
+
+    /// How far outside of the wall, which goes on for ever, the receiver is (m); negative inside.
+    #[inline]
+    fn gap(&self, tube: &Cylinder) -> f32 {
+        (self.distance - f64::from(tube.radius())) as f32
+    }
 }
 
 impl CylinderSlab {
     /// * `inside` – whether it is the inner wall that is seen, from within
-    fn new(tube: &Cylinder, from: &Receiver, inside: bool) -> Option<Self> {
-        let (axis, to_base) = (tube.unit_axis(), tube.base() - from.point);
-        let start = num::sum_of_products(axis.to_array(), to_base.to_array());
-        let aside = to_base - axis * start;
-        let toward = unit(aside - axis * aside.dot(axis)).unwrap_or(Frame::from_normal(axis).s);
+    fn new(tube: &Cylinder, foot: &Foot, inside: bool) -> Option<Self> {
+        let axis = foot.axis.as_vec3();
+        let toward = foot.toward.map_or(Frame::from_normal(axis).s, |v| v.as_vec3());
         let mut slab = Self {
             tube: *tube,
             axis,
             toward,
             across: axis.cross(toward),
-            start,
-            length: tube.axis().length(),
-            distance: aside.dot(toward).max(0.0),
-            gap: clearance(tube, from.point),
+            start: foot.start as f32,
+            length: foot.length as f32,
+            distance: foot.distance as f32,
+            gap: foot.gap(tube),
+            inside,
             sweep: Sweep::EMPTY,
         };
-        if !inside {
-            slab.gap = slab.gap.max(f32::MIN_POSITIVE);
-            slab.distance = slab.gap + tube.radius();
-        } else if slab.gap > 0.0 {
+        if inside && slab.gap > 0.0 {
             (slab.gap, slab.distance) = (0.0, tube.radius());
         }
         // A right angle from the wall itself; less from afar.
         let tangent = num::sqrt(slab.gap) * num::sqrt(slab.distance + tube.radius());
-        let half = if inside { PI } else { num::atan2(tube.radius(), tangent).min(FRAC_PI_2) };
-        slab.sweep = Sweep::new(-half, half, |angle| slab.line_at(angle).0.extent())?;
+        let half = if inside { 1.0 } else { tube.radius() / (tangent + slab.distance) };
+        slab.sweep = Sweep::symmetric(half, |turn| {
+            let (sin_cos, rate) = slab.angle_at(half - turn);
+            slab.line_at(sin_cos).0.extent() * rate
+        })?;
         Some(slab)
     }
 
-    /// The line of the wall at a plane's angle, and its unit direction from the tube's axis in the
+    /// Sine and cosine of the plane's angle `α` at a turn, and the angle per turn. A turn is
+    /// `z = tan(α / 2)`; inside, where `α` goes all the way round, `tan(α / 4)`.
+    #[inline]
+    fn angle_at(&self, z: f32) -> ([f32; 2], f32) {
+        let scale = 2.0 / (1.0 + z * z);
+        let (sin, cos) = (z * scale, (1.0 - z) * (1.0 + z) * 0.5 * scale);
+        if self.inside {
+            ([2.0 * sin * cos, 1.0 - 2.0 * sin * sin], 2.0 * scale)
+        } else {
+            ([sin, cos], scale)
+        }
+    }
+
+    /// The line of the wall at the sine and cosine of a plane's angle, and its unit direction from the tube's axis in the
     /// local axes `toward` and `across`.
     #[inline]
-    fn line_at(&self, angle: f32) -> (Span, [f32; 2], [f32; 2]) {
-        let (sin, cos) = num::sin_cos(angle);
+    fn line_at(&self, [sin, cos]: [f32; 2]) -> (Span, [f32; 2]) {
         let (d, r) = (self.distance, self.tube.radius());
         let half_chord = num::sqrt((r - d * sin) * (r + d * sin));
         // Product of the distances to both ends of the chord: (d − r)(d + r).
@@ -82,7 +131,7 @@ impl CylinderSlab {
         // From the axis: its own direction is t (cos, sin) − (d, 0).
         let side = if self.gap > 0.0 { -half_chord } else { half_chord };
         let out = [(side * cos - d * sin * sin) / r, sin * (away / r)];
-        (self.span(away), out, [cos, sin])
+        (self.span(away), out)
     }
 
     #[inline]
@@ -90,24 +139,35 @@ impl CylinderSlab {
         Span { start: self.start, length: self.length, away }
     }
 
-    /// Plane's angle and distance of the line of the wall through a point.
+    /// The line of the wall through a point, its turn, and the angle per turn.
     #[inline]
-    fn line_through(&self, at: &SurfacePoint) -> (FromEnd, Span) {
+    fn line_through(&self, at: &SurfacePoint) -> (Span, FromEnd, f32) {
         let n = if self.tube.is_inward() { -at.normal } else { at.normal };
         let (cos, sin) = (-n.dot(self.toward), n.dot(self.across));
         let r = self.tube.radius();
         // d − r cos φ, without its cancellation close to the wall.
         let versine = if cos > 0.0 { sin * sin / (1.0 + cos) } else { 1.0 - cos };
         let (x, y) = (self.gap + r * versine, r * sin);
-        let angle = self.sweep.half() - num::atan2(y.abs(), x);
-        (FromEnd { angle, low: y < 0.0 }, self.span(num::sqrt(x * x + y * y)))
+        let away = num::sqrt(x * x + y * y);
+        // Tangent of half the angle, or its inverse.
+        let tangent = y.abs() / (away + x.abs());
+        let z = match (self.inside, x < 0.0) {
+            (false, _) => tangent,
+            (true, false) => tangent / (1.0 + num::sqrt(1.0 + tangent * tangent)),
+            (true, true) => 1.0 / (tangent + num::sqrt(1.0 + tangent * tangent)),
+        };
+        let turn = FromEnd { turn: self.sweep.half() - z, low: y < 0.0 };
+        (self.span(away), turn, self.angle_at(z).1)
     }
 }
 
 impl SurfaceView for CylinderSlab {
     #[inline]
     fn sample(&self, u: [f32; 2]) -> Option<SurfaceSample> {
-        let (span, out, [cos, sin]) = self.line_at(self.sweep.sample(u[0]));
+        let turn = self.sweep.sample(u[0]);
+        let z = self.sweep.half() - turn.turn;
+        let ([sin, cos], _) = self.angle_at(if turn.low { -z } else { z });
+        let (span, out) = self.line_at([sin, cos]);
         if !(span.away > 0.0) {
             return None;
         }
@@ -121,27 +181,17 @@ impl SurfaceView for CylinderSlab {
 
     #[inline]
     fn pdf_solid_angle(&self, at: &SurfacePoint, _: Vec3, _: f32) -> Option<f32> {
-        let (angle, span) = self.line_through(at);
-        let pdf = self.sweep.pdf(angle) / span.extent();
+        let (span, turn, rate) = self.line_through(at);
+        let pdf = self.sweep.pdf(turn) / (span.extent() * rate);
         (pdf > 0.0 && pdf.is_finite()).then_some(pdf)
     }
 
     fn invert(&self, at: &SurfacePoint, _: Vec3) -> Option<[f32; 2]> {
-        let (angle, span) = self.line_through(at);
+        let (span, turn, _) = self.line_through(at);
         let (fraction, _) = self.tube.coordinates(at.point);
-        let u = [self.sweep.share(angle), span.share(fraction.clamp(0.0, 1.0))];
+        let u = [self.sweep.share(turn), span.share(fraction.clamp(0.0, 1.0))];
         u.iter().all(|x| x.is_finite()).then(|| u.map(|x| x.clamp(0.0, num::ONE_MINUS_EPSILON)))
     }
-}
-
-/// How far a point is from the wall of a tube that goes on for ever (m); negative inside.
-fn clearance(tube: &Cylinder, point: Vec3) -> f32 {
-    let (axis, v) = (tube.unit_axis(), tube.base() - point);
-    let aside = v - axis * num::sum_of_products(axis.to_array(), v.to_array());
-    let radius = tube.radius();
-    let power =
-        num::sum_of_products([aside.x, aside.y, aside.z, radius], [aside.x, aside.y, aside.z, -radius]);
-    power / (aside.length() + radius)
 }
 
 impl SampledShape for Cylinder {
@@ -172,10 +222,13 @@ impl SampledShape for Cylinder {
         sides: Sides,
         then: U,
     ) -> Option<U::Output> {
-        let reach = self.base().abs().max_element() + self.axis().abs().max_element() + self.radius();
-        let (gap, rounding) = (clearance(self, from.point), num::gamma(16) * reach);
-        let (outward, inside) = (!self.is_inward(), gap < rounding);
-        if sides == Sides::Front && outward && !(gap > -rounding) {
+        let foot = Foot::new(self, from);
+        let gap = foot.gap(self);
+        let outward = !self.is_inward();
+        // Its own points do not see an outer wall; an inner one they do, on whichever side they are.
+        let reach = self.base().length() + self.axis().length() + self.radius();
+        let inside = gap < num::gamma(10) * reach;
+        if sides == Sides::Front && outward && !(gap > 0.0) {
             return None;
         }
         let (centre, radius) = (self.base() + self.axis() * 0.5, 0.5 * self.axis().length() + self.radius());
@@ -183,6 +236,6 @@ impl SampledShape for Cylinder {
         if method == SurfaceDensity::Area || sides == Sides::Both || !(outward || inside) {
             return then.with(AreaView::new(*self, from), View::Area);
         }
-        then.with(CylinderSlab::new(self, from, !outward)?, View::SolidAngle)
+        then.with(CylinderSlab::new(self, &foot, !outward)?, View::SolidAngle)
     }
 }

@@ -33,27 +33,77 @@ pub struct DiskSlab {
     shear: f32,
     /// The second axis in units of the semi-axes, as a unit vector.
     along: Vec2,
+    /// The lines at the near edge, through the centre, and at the far edge.
+    marks: [Mark; 3],
+    /// How many turns the centre is from either edge.
+    to_centre: [f32; 2],
     sweep: Sweep,
+}
+
+/// A line that others are measured from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Mark {
+    /// Tangent of half the plane's angle `α` from the normal.
+    turn: f32,
+    /// `1 − turn²`.
+    rest: f32,
+    /// Distance of the receiver from the line, plus that from the plane (m).
+    sum: f32,
+}
+
+impl Mark {
+    /// * `y` – offset of the line from the foot (m)
+    ///
+    /// Derived: `tan(α / 2) = y / (h + r)` with r² = h² + y², and `1 − tan²(α / 2) = 2 h / (h + r)`.
+    #[inline]
+    fn new(height: f32, y: f32) -> Self {
+        let sum = height + num::sqrt(height * height + y * y);
+        Self { turn: y / sum, rest: 2.0 * (height / sum), sum }
+    }
+
+    /// How many turns two lines are apart that are `across` apart (m).
+    ///
+    /// Derived: as [`Mark::across`]; on either side of the foot nothing cancels.
+    #[inline]
+    fn apart(&self, other: &Self, height: f32, across: f32) -> f32 {
+        if self.turn * other.turn < 0.0 {
+            return (self.turn - other.turn).abs();
+        }
+        2.0 * across * (height / self.sum / other.sum) / (1.0 + self.turn * other.turn)
+    }
+
+    /// How far across the plane a line is (m) that is at the turn `z`, `apart` from this one.
+    ///
+    /// Derived: `h (tan α₁ − tan α) = 2 h (z₁ − z) (1 + z z₁) / ((1 − z₁²) (1 − z²))`.
+    ///
+    /// * `rest` – `1 − z²`
+    #[inline]
+    fn across(&self, height: f32, apart: f32, z: f32, rest: f32) -> f32 {
+        apart * (1.0 + z * self.turn) * ((2.0 * height) / self.rest / rest)
+    }
 }
 
 /// A line across the disk.
 struct Line {
-    /// Offset along the second axis, in units of the reach; in `[−1, 1]`.
+    /// Offset along the second axis, in units of the reach, and that of the chord's ends from its
+    /// middle, in units of the longest: a cosine and a sine.
     s: f32,
-    /// Sine and cosine of the plane's angle, from the plane's normal.
-    sin: f32,
-    cos: f32,
+    half: f32,
+    /// Offset from the foot (m).
+    y: f32,
+    /// Squared tangent of half the plane's angle.
+    turn2: f32,
     span: Span,
 }
 
 impl DiskSlab {
     /// `None` from within the disk's plane, and where rounding leaves no solid angle.
     fn new(disk: &Disk, from: &Receiver) -> Option<Self> {
-        let to_centre = disk.centre() - from.point;
+        let centre = disk.centre() - from.point;
         let (u, v) = (unit(disk.axis_u())?, unit(disk.axis_v())?);
         let normal = disk.normal();
-        let rise = num::sum_of_products(normal.to_array(), to_centre.to_array());
-        let (p, q) = (to_centre.dot(u), to_centre.dot(v));
+        let rise = num::sum_of_products(normal.to_array(), centre.to_array());
+        let (p, q) = (centre.dot(u), centre.dot(v));
         let offset = num::sqrt(p * p + q * q);
         let g = if offset > 0.0 { Vec2::new(p / offset, q / offset) } else { Vec2::X };
         let (a, b) = (disk.axis_u().length(), disk.axis_v().length());
@@ -62,6 +112,8 @@ impl DiskSlab {
         if !(height > 0.0 && reach > 0.0) {
             return None;
         }
+        let marks = [offset - reach, offset, offset + reach].map(|y| Mark::new(height, y));
+        let to_centre = [0, 2].map(|i| marks[i].apart(&marks[1], height, reach));
         let mut slab = Self {
             disk: *disk,
             axes: [u * g.y - v * g.x, u * g.x + v * g.y, normal * 1.0_f32.copysign(rise)],
@@ -71,56 +123,62 @@ impl DiskSlab {
             half_chord: a * (b / reach),
             shear: ((a - b) / reach) * ((a + b) / reach) * (g.x * g.y),
             along: Vec2::new(a * g.x / reach, b * g.y / reach),
+            marks,
+            to_centre,
             sweep: Sweep::EMPTY,
         };
-        let (low, high) = (slab.angle(-1.0), slab.angle(1.0));
-        slab.sweep = Sweep::new(low, high, |angle| slab.line_at(angle).span.extent())?;
+        slab.sweep = Sweep::new(0.5 * (to_centre[0] + to_centre[1]), |turn| {
+            let line = slab.line_at(turn);
+            line.span.extent() * (2.0 / (1.0 + line.turn2))
+        })?;
         Some(slab)
     }
 
-    /// Plane's angle of a line, counted from the centre's (rad).
+    /// The line at a turn, which is `z = tan(α / 2)`.
     #[inline]
-    fn angle(&self, s: f32) -> f32 {
-        let (h, d, eta) = (self.height, self.offset, s * self.reach);
-        num::atan2(eta * h, h * h + d * (d + eta))
+    fn line_at(&self, from: FromEnd) -> Line {
+        let h = self.height;
+        let (i, inward) = if from.low { (0, 1.0) } else { (1, -1.0) };
+        let edge = &self.marks[2 * i];
+        let z = edge.turn + inward * from.turn;
+        let rest = edge.rest - inward * from.turn * (edge.turn + z);
+        let y = 2.0 * h * (z / rest);
+        // In units of the reach: from the edge, or from the centre in a form that does not cancel.
+        let m = edge.across(h, from.turn, z, rest) / self.reach;
+        let s = if m < 0.5 {
+            inward * (m - 1.0)
+        } else if z < 0.0 {
+            (y - self.offset) / self.reach
+        } else {
+            inward * self.marks[1].across(h, from.turn - self.to_centre[i], z, rest) / self.reach
+        };
+        let square = if m < 0.5 { m * (2.0 - m) } else { (1.0 - s) * (1.0 + s) };
+        let turn2 = z * z;
+        let line = self.line(s.clamp(-1.0, 1.0), num::sqrt(square), h * ((1.0 + turn2) / rest));
+        Line { y, turn2, ..line }
     }
 
-    /// The same counted from the edge.
+    /// The line through a point of the disk, and its turn.
     #[inline]
-    fn angle_from_edge(&self, s: f32) -> FromEnd {
-        let (edge, y) = (self.offset + self.reach.copysign(s), self.offset + s * self.reach);
-        let between = (1.0 - s.abs()) * self.reach;
-        let angle = num::atan2(between * self.height, self.height * self.height + edge * y);
-        FromEnd { angle, low: s < 0.0 }
-    }
-
-    /// The line at a plane's angle, counted from the centre's.
-    #[inline]
-    fn line_at(&self, angle: f32) -> Line {
-        let (h, d) = (self.height, self.offset);
-        let (sin, cos) = num::sin_cos(angle);
-        let far = num::sqrt(h * h + d * d);
-        // Below this, the line would be beyond the disk.
-        let least = h * (h / (h + d + self.reach));
-        let forward = (h * cos - d * sin).max(least);
-        let eta = far * far * (sin / forward);
-        let away = h * (far / forward);
-        self.line((eta / self.reach).clamp(-1.0, 1.0), (d * cos + h * sin) / far, forward / far, away)
-    }
-
-    /// The line through a point of the disk.
-    #[inline]
-    fn line_through(&self, s: f32) -> Line {
+    fn line_through(&self, s: f32) -> (Line, FromEnd) {
         let y = self.offset + s * self.reach;
         let away = num::sqrt(self.height * self.height + y * y);
-        self.line(s, y / away, self.height / away, away)
+        let mark = Mark::new(self.height, y);
+        let from_end = |low: bool| {
+            let (edge, between) = if low { (&self.marks[0], 1.0 + s) } else { (&self.marks[2], 1.0 - s) };
+            FromEnd { turn: edge.apart(&mark, self.height, between * self.reach), low }
+        };
+        let near = from_end(s < 0.0);
+        let turn = if near.turn > self.sweep.half() { from_end(s >= 0.0) } else { near };
+        let line = self.line(s, num::sqrt((1.0 - s) * (1.0 + s)), away);
+        (Line { y, turn2: mark.turn * mark.turn, ..line }, turn)
     }
 
     #[inline]
-    fn line(&self, s: f32, sin: f32, cos: f32, away: f32) -> Line {
-        let half = self.half_chord * num::sqrt((1.0 - s) * (1.0 + s));
-        let span = Span { start: self.shear * (s * self.reach) - half, length: 2.0 * half, away };
-        Line { s, sin, cos, span }
+    fn line(&self, s: f32, half: f32, away: f32) -> Line {
+        let half_length = self.half_chord * half;
+        let start = self.shear * (s * self.reach) - half_length;
+        Line { s, half, y: 0.0, turn2: 0.0, span: Span { start, length: 2.0 * half_length, away } }
     }
 
     /// A point of the disk in units of the chords: offset, and fraction of its chord.
@@ -140,26 +198,25 @@ impl SurfaceView for DiskSlab {
         let line = self.line_at(self.sweep.sample(u[0]));
         let (x, fraction) = line.span.at(u[1]);
         // In units of the semi-axes a chord of the ellipse is one of the unit circle.
-        let k = (2.0 * fraction - 1.0) * num::sqrt((1.0 - line.s) * (1.0 + line.s));
+        let k = (2.0 * fraction - 1.0) * line.half;
         let (e, s) = (self.along, line.s);
         let at = self.disk.point(s * e.x + k * e.y, s * e.y - k * e.x);
-        let away = line.span.away;
-        let distance = num::sqrt(x * x + away * away);
-        let plane = self.axes[1] * line.sin + self.axes[2] * line.cos;
-        let wi = unit(self.axes[0] * (x / distance) + plane * (away / distance))?;
-        (distance > 0.0 && distance.is_finite()).then_some(SurfaceSample { at, wi, distance })
+        let way = self.axes[0] * x + self.axes[1] * line.y + self.axes[2] * self.height;
+        let distance = num::sqrt(x * x + line.span.away * line.span.away);
+        (distance > 0.0 && distance.is_finite()).then_some(SurfaceSample { at, wi: unit(way)?, distance })
     }
 
     #[inline]
     fn pdf_solid_angle(&self, at: &SurfacePoint, _: Vec3, _: f32) -> Option<f32> {
-        let (s, _) = self.place(at);
-        let pdf = self.sweep.pdf(self.angle_from_edge(s)) / self.line_through(s).span.extent();
+        let (line, turn) = self.line_through(self.place(at).0);
+        let pdf = self.sweep.pdf(turn) * (0.5 * (1.0 + line.turn2)) / line.span.extent();
         (pdf > 0.0 && pdf.is_finite()).then_some(pdf)
     }
 
     fn invert(&self, at: &SurfacePoint, _: Vec3) -> Option<[f32; 2]> {
         let (s, fraction) = self.place(at);
-        let u = [self.sweep.share(self.angle_from_edge(s)), self.line_through(s).span.share(fraction)];
+        let (line, turn) = self.line_through(s);
+        let u = [self.sweep.share(turn), line.span.share(fraction)];
         u.iter().all(|x| x.is_finite()).then(|| u.map(|x| x.clamp(0.0, num::ONE_MINUS_EPSILON)))
     }
 }

@@ -7,7 +7,7 @@
 use crate::num;
 
 /// Intervals of a sweep's table. With 8, the relative variance of the solid angle is 1e-4 for a
-/// disk five radii away, 3e-3 for one that is almost touched, 1e-3 for a tube alongside; 0.4 for a
+/// disk five radii away, up to 8e-3 for one that is near, 5e-5 for a tube alongside; up to 0.4 for a
 /// tube that is seen along its wall, from a fiftieth of its radius off it and half a radius before it.
 const INTERVALS: usize = 8;
 
@@ -56,25 +56,32 @@ impl Span {
 
     /// The point with the share `u` of the extent before it: its offset from the foot (m), and the
     /// fraction of the span before it.
+    ///
+    /// Derived: from the sine of an end and `δ = |hᵢ − h|`, the squared cosine is
+    /// `c² = cᵢ² + δ |hᵢ + h|`; of the ends it is the one that is farther up, so that nothing cancels
+    /// however near the axis the span is.
     #[inline]
     pub(crate) fn at(&self, u: f32) -> (f32, f32) {
         let (span, turn) = self.turned();
-        let delta = span.sines(span.length) * if turn { 1.0 - u } else { u };
-        let (x0, t) = (span.start, span.away);
-        let r0 = num::sqrt(x0 * x0 + t * t);
-        let (c0, h) = (t / r0, x0 / r0 + delta);
-        let c = num::sqrt((1.0 - h) * (1.0 + h)).max(f32::MIN_POSITIVE);
-        let before = if x0 < 0.0 {
+        let u = if turn { 1.0 - u } else { u };
+        let extent = span.sines(span.length);
+        let (before, after) = (extent * u, extent * (1.0 - u));
+        let (x0, x1, t) = (span.start, span.start + span.length, span.away);
+        let (r0, r1) = (num::sqrt(x0 * x0 + t * t), num::sqrt(x1 * x1 + t * t));
+        let (c0, c1, h0, h1) = (t / r0, t / r1, x0 / r0, x1 / r1);
+        let h = h0 + before;
+        let square = if h < 0.0 { c0 * c0 - before * (h0 + h) } else { c1 * c1 + after * (h1 + h) };
+        let c = num::sqrt(square).max(f32::MIN_POSITIVE);
+        let (x, part) = if x0 < 0.0 {
             // The foot is within: no digit is lost from it.
-            t * (h / c) - x0
+            let x = (t * (h / c)).clamp(x0, x1);
+            (x, x - x0)
         } else {
             // x − x₀ = t sin(ε − ε₀) / (c₀ c)
-            t * (delta / c) * ((1.0 + c * c0 + h * (x0 / r0)) / ((c + c0) * c0))
+            let part = (t * (before / c) * ((1.0 + c * c0 + h * h0) / ((c + c0) * c0))).min(span.length);
+            (x0 + part, part)
         };
-        let before = before.clamp(0.0, span.length);
-        let (x, fraction) = (x0 + before, before / span.length);
-        // Where the foot is within, close to it.
-        let x = if x0 < 0.0 { (t * (h / c)).clamp(x0, x0 + span.length) } else { x };
+        let fraction = (part / span.length).min(1.0);
         if turn { (-x, 1.0 - fraction) } else { (x, fraction) }
     }
 
@@ -87,14 +94,15 @@ impl Span {
     }
 }
 
-/// A density over the angles of a sweep, `[middle − half, middle + half]`.
+/// A density over the turns of a sweep: half-angle tangents or the like, so that no trigonometry is
+/// needed.
 ///
 /// It is piecewise linear, but for the first and the last interval: there it is constant, for a
-/// light whose extent ends abruptly, falls to 0 as a root, for one with a round edge, or blends the
-/// two; a light that is seen more toward an end has a line there too.
+/// light whose extent falls off toward its end, or falls to 0 as a root, for one with a round edge,
+/// or blends the two; a light that ends abruptly has a line there too.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Sweep {
-    middle: f32,
+    /// Half of its width.
     half: f32,
     /// Density over an interval at its ends, as a share of the whole.
     density: [f32; INTERVALS + 1],
@@ -105,41 +113,65 @@ pub(crate) struct Sweep {
 impl Sweep {
     /// What is there before anything is tabulated.
     pub(crate) const EMPTY: Self =
-        Self { middle: 0.0, half: 0.0, density: [0.0; INTERVALS + 1], ends: [End { round: 0.0 }; 2] };
+        Self { half: 0.0, density: [0.0; INTERVALS + 1], ends: [End { round: 0.0 }; 2] };
 
-    /// Tabulates what is seen between two angles (rad); `None` when that is nothing.
+    /// Tabulates what is seen; `None` when that is nothing.
     ///
-    /// * `extent` – the light's extent in `h` at an angle
-    pub(crate) fn new(low: f32, high: f32, extent: impl Fn(f32) -> f32) -> Option<Self> {
-        let mut sweep = Self { middle: 0.5 * (low + high), half: 0.5 * (high - low), ..Self::EMPTY };
-        let seen = |place: f32| extent(sweep.middle + sweep.half * (STEP * place - 1.0));
+    /// * `half` – half of the width of the sweep
+    /// * `seen` – solid angle per turn
+    #[inline]
+    pub(crate) fn new(half: f32, seen: impl Fn(FromEnd) -> f32) -> Option<Self> {
+        let at = |place: f32, low: bool| seen(FromEnd { turn: half * (STEP * place), low });
         let mut density = [0.0; INTERVALS + 1];
         for (i, d) in density.iter_mut().enumerate().take(INTERVALS).skip(1) {
-            *d = seen(i as f32);
+            let low = i <= MIDDLE;
+            *d = at(if low { i } else { INTERVALS - i } as f32, low);
         }
-        let halfway = [seen(0.5), seen(INTERVALS as f32 - 0.5)];
+        Self::from_values(half, density, [at(0.5, true), at(0.5, false)])
+    }
+
+    /// The same for a light of which both sides look alike.
+    ///
+    /// * `seen` – solid angle per turn, counted from an end
+    #[inline]
+    pub(crate) fn symmetric(half: f32, seen: impl Fn(f32) -> f32) -> Option<Self> {
+        let at = |place: f32| seen(half * (STEP * place));
+        let mut density = [0.0; INTERVALS + 1];
+        for (i, d) in density.iter_mut().enumerate().take(MIDDLE + 1).skip(1) {
+            *d = at(i as f32);
+        }
+        for i in 1..MIDDLE {
+            density[INTERVALS - i] = density[i];
+        }
+        Self::from_values(half, density, [at(0.5); 2])
+    }
+
+    /// * `density` – at the inner nodes
+    /// * `halfway` – in the middle of the first and the last interval
+    #[inline]
+    fn from_values(half: f32, mut density: [f32; INTERVALS + 1], halfway: [f32; 2]) -> Option<Self> {
         let next = [density[1], density[INTERVALS - 1]];
         let ends = [End::new(halfway[0] / next[0]), End::new(halfway[1] / next[1])];
-        // One that rises to an end goes on as a line.
-        let rising = |i: usize| (2.0 * (halfway[i] - next[i])).max(0.0);
-        let line = |i: usize| if rising(i) > 0.0 { next[i] + rising(i) } else { 0.0 };
+        // One that does not fall as a rim does goes on as a line.
+        let is_abrupt = |i: usize| halfway[i] > ABRUPT * next[i];
+        let line = |i: usize| if is_abrupt(i) { 2.0 * halfway[i] - next[i] } else { 0.0 };
         (density[0], density[INTERVALS]) = (line(0), line(1));
-        (sweep.density, sweep.ends) = (density, ends);
+        let mut sweep = Self { half, density, ends };
         let scale = 1.0 / (0..INTERVALS).map(|i| sweep.mass(i)).sum::<f32>();
-        if !(sweep.half > 0.0 && scale > 0.0 && scale < f32::INFINITY) {
+        if !(half > 0.0 && scale > 0.0 && scale < f32::INFINITY) {
             return None;
         }
         sweep.density = density.map(|d| d * scale);
         Some(sweep)
     }
 
-    /// Half of the sweep (rad).
+    /// Half of the width of the sweep.
     #[inline]
     pub(crate) fn half(&self) -> f32 {
         self.half
     }
 
-    /// How the density ends in an interval at an end; `None` elsewhere, and where it rises as a line.
+    /// How the density ends in an interval at an end; `None` elsewhere, and where it ends as a line.
     #[inline]
     fn end(&self, i: usize) -> Option<End> {
         match i {
@@ -156,44 +188,44 @@ impl Sweep {
         self.end(i).map_or(0.5 * sum, |end| sum / end.density(1.0))
     }
 
-    /// Draws an angle (rad).
+    /// Draws a turn, counted from the nearer end.
     #[inline]
-    pub(crate) fn sample(&self, u: f32) -> f32 {
+    pub(crate) fn sample(&self, u: f32) -> FromEnd {
         let (mut left, mut i) = (u, 0);
         while i < INTERVALS - 1 && left >= self.mass(i) {
             left -= self.mass(i);
             i += 1;
         }
-        let mass = self.mass(i);
+        let low = i < MIDDLE;
+        // Fraction of the interval between its outer end and the turn.
         let t = match self.end(i) {
-            Some(end) if i == 0 => end.sample((left / mass).min(1.0)),
-            Some(end) => 1.0 - end.sample((1.0 - left / mass).max(0.0)),
+            Some(end) if low => end.sample((left / self.mass(i)).min(1.0)),
+            Some(end) => end.sample((1.0 - left / self.mass(i)).max(0.0)),
             None => {
                 // Root of a t + (b − a) t² / 2 = left, in the form that does not cancel.
                 let (a, b) = (self.density[i], self.density[i + 1]);
                 let root = a + num::sqrt(a * a + 2.0 * (b - a) * left);
-                if root > 0.0 { (2.0 * left / root).min(1.0) } else { 0.0 }
+                let t = if root > 0.0 { (2.0 * left / root).min(1.0) } else { 0.0 };
+                if low { t } else { 1.0 - t }
             }
         };
-        self.middle + self.half * (STEP * (i as f32 + t) - 1.0)
+        let outer = if low { i } else { INTERVALS - 1 - i };
+        FromEnd { turn: self.half * (STEP * (outer as f32 + t)), low }
     }
 
-    /// Where an angle is in the table: the interval, and the fraction of it before and after the
-    /// angle.
+    /// Where a turn is in the table: the interval, and the fraction of it before and after the turn.
     #[inline]
     fn find(&self, from: FromEnd) -> (usize, [f32; 2]) {
-        let rest = (from.angle / self.half).clamp(0.0, 2.0);
-        let (below, rest) = if rest > 1.0 { (!from.low, 2.0 - rest) } else { (from.low, rest) };
-        let place = rest / STEP;
-        let end = (place as usize).min(INTERVALS / 2 - 1);
+        let place = (from.turn / self.half).clamp(0.0, 1.0) / STEP;
+        let end = (place as usize).min(MIDDLE - 1);
         let t = place - end as f32;
-        if below { (end, [t, 1.0 - t]) } else { (INTERVALS - 1 - end, [1.0 - t, t]) }
+        if from.low { (end, [t, 1.0 - t]) } else { (INTERVALS - 1 - end, [1.0 - t, t]) }
     }
 
-    /// Density of an angle (rad⁻¹).
+    /// Density of a turn.
     #[inline]
-    pub(crate) fn pdf(&self, angle: FromEnd) -> f32 {
-        let (i, [before, after]) = self.find(angle);
+    pub(crate) fn pdf(&self, turn: FromEnd) -> f32 {
+        let (i, [before, after]) = self.find(turn);
         let density = match self.end(i) {
             Some(end) => self.mass(i) * end.density(if i == 0 { before } else { after }),
             None => self.density[i] * after + self.density[i + 1] * before,
@@ -202,8 +234,8 @@ impl Sweep {
     }
 
     /// Inverse of [`Sweep::sample`].
-    pub(crate) fn share(&self, angle: FromEnd) -> f32 {
-        let (i, [before, after]) = self.find(angle);
+    pub(crate) fn share(&self, turn: FromEnd) -> f32 {
+        let (i, [before, after]) = self.find(turn);
         let below: f32 = (0..i).map(|j| self.mass(j)).sum();
         let (a, b) = (self.density[i], self.density[i + 1]);
         below
@@ -260,14 +292,21 @@ impl End {
     }
 }
 
-/// An angle of a sweep, counted from one of its ends (rad): where the light's edge is round, the
-/// density is a quotient of what vanishes there.
+/// A turn of a sweep, counted inward from the nearer of its ends: where the light's edge is round,
+/// the density is a quotient of what vanishes there.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct FromEnd {
-    pub(crate) angle: f32,
+    pub(crate) turn: f32,
     /// True when it is counted from the low end.
     pub(crate) low: bool,
 }
 
 /// Width of an interval, for a sweep of 2.
 const STEP: f32 = 2.0 / INTERVALS as f32;
+
+/// From which ratio of the value halfway through the last interval to that before it a light ends
+/// abruptly. The angle per turn alone makes it 0.88 at a right angle; a circle's rim, 0.73.
+const ABRUPT: f32 = 0.86;
+
+/// Intervals on either side.
+const MIDDLE: usize = INTERVALS / 2;

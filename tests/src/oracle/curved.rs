@@ -207,7 +207,9 @@ impl Round {
 }
 
 /// The turns between `t[0]` and `t[1]` at which the horizon leaves a cell through its ends, with both
-/// bounds: between two of them it is met on each line of constant `t`, or on none.
+/// bounds: between two of them it is met on each line of constant `t`, or on none. About the short
+/// axis of an ellipse there are more: there the cut runs from the rim to the centre within a turn
+/// that is as small as the ellipse is narrow.
 fn breaks(shape: &Curved, normal: DVec3, s: [f64; 2], t: [f64; 2]) -> Vec<f64> {
     let mut breaks = vec![t[0], t[1]];
     for end in s {
@@ -225,6 +227,19 @@ fn breaks(shape: &Curved, normal: DVec3, s: [f64; 2], t: [f64; 2]) -> Vec<f64> {
                     breaks.push(turned);
                 }
             }
+        }
+    }
+    if let Curved::Ellipse { u, v, .. } = shape {
+        let (ratio, short) = (u.length() / v.length(), if u.length() > v.length() { 0.5 * PI } else { 0.0 });
+        let mut off = 0.5;
+        while off > 0.1 * ratio.min(1.0 / ratio) {
+            for root in [short - off, short + off, short + PI - off, short + PI + off] {
+                let turned = t[0] + (root - t[0]).rem_euclid(TAU);
+                if turned < t[1] {
+                    breaks.push(turned);
+                }
+            }
+            off *= 0.5;
         }
     }
     breaks.sort_by(f64::total_cmp);

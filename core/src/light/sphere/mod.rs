@@ -54,11 +54,11 @@ impl<O: SurfaceView> SurfaceView for SphereView<O> {
 /// How far outside the sphere a receiver is taken to be (m), 0 or less from inside; `None` when the
 /// emitting side is not seen from there.
 ///
-/// Points of the sphere itself lie on either side of it, as far as rounding places them: they are
-/// taken to be on the side that emits.
+/// Points of the sphere itself lie on either side of it, as far as [`Sphere::point`] says that they
+/// are rounded, and no farther: they are taken to be on the side that emits.
 fn clearance(sphere: &Sphere, from: Vec3, sides: Sides) -> Option<f32> {
     let gap = sphere.clearance(from);
-    let rounding = num::gamma(16) * (sphere.centre().abs().max_element() + sphere.radius());
+    let rounding = num::gamma(8) * (sphere.centre().length() + sphere.radius());
     match (sides, sphere.is_inward()) {
         (Sides::Both, _) => Some(gap),
         (Sides::Front, false) => (gap > -rounding).then_some(gap.max(f32::MIN_POSITIVE)),
