@@ -181,7 +181,7 @@ impl<const N: usize> ProjectedPolygon<N> {
         let areas = self.sectors.areas();
         let parts = || (0..areas.len()).filter(|i| areas[*i] > 0.0);
         // In the last one at the latest, as far as rounding goes.
-        let i = parts().find(is_inside).or_else(|| parts().last()).unwrap_or(0);
+        let i = parts().find(is_inside).or_else(|| parts().next_back()).unwrap_or(0);
         let before = areas[..i].iter().sum();
         let sector = self.sectors.get(i);
         if !sector.is_wide() {

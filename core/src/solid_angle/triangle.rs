@@ -228,7 +228,7 @@ impl SphericalTriangle {
     /// * `barycentric` – of the place
     #[must_use]
     pub fn invert(&self, barycentric: [f64; 2]) -> [f32; 2] {
-        let b1 = barycentric[0].max(0.0).min(1.0);
+        let b1 = barycentric[0].clamp(0.0, 1.0);
         let part = 1.0 - b1;
         let b2 = barycentric[1].max(0.0).min(part);
         let share = if part > 0.0 { b2 / part } else { 0.0 };
