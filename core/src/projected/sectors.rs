@@ -5,6 +5,7 @@ use super::clip::Above;
 use super::lanes::{self, Ends};
 use super::meridian::{Cut, Meridian};
 use super::sector::{Sector, WIDE};
+use crate::num;
 use glam::{DVec3, Vec3, Vec4};
 
 /// The sectors of a polygon, in the order of azimuth; `N − 1` at most.
@@ -130,6 +131,10 @@ impl<const N: usize> Sectors<N> {
             self.measure_wide(i);
         }
         self.total = self.areas.iter().sum();
+        // A little more than the hemisphere is rounding.
+        if self.total > num::PI && self.total < num::PI * 1.000_1 {
+            self.total = num::PI;
+        }
     }
 
     #[cold]
