@@ -190,7 +190,7 @@ impl SurfaceView for CylinderSlab {
         let (span, turn, _) = self.line_through(at);
         let (fraction, _) = self.tube.coordinates(at.point);
         let u = [self.sweep.share(turn), span.share(fraction.clamp(0.0, 1.0))];
-        u.iter().all(|x| x.is_finite()).then(|| u.map(|x| x.clamp(0.0, num::ONE_MINUS_EPSILON)))
+        u.iter().all(|x| x.is_finite()).then(|| u.map(num::clamp_unit))
     }
 }
 
@@ -210,7 +210,7 @@ impl SampledShape for Cylinder {
         let frame = Frame::from_normal(self.unit_axis());
         let turn = num::atan2(n.dot(frame.t), n.dot(frame.s)) / TAU;
         let turn = if turn < 0.0 { turn + 1.0 } else { turn };
-        [h, turn].map(|x| x.clamp(0.0, num::ONE_MINUS_EPSILON))
+        [h, turn].map(num::clamp_unit)
     }
 
     /// By area where the inner wall is seen through an open end, and where both sides emit.

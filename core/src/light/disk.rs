@@ -217,7 +217,7 @@ impl SurfaceView for DiskSlab {
         let (s, fraction) = self.place(at);
         let (line, turn) = self.line_through(s);
         let u = [self.sweep.share(turn), line.span.share(fraction)];
-        u.iter().all(|x| x.is_finite()).then(|| u.map(|x| x.clamp(0.0, num::ONE_MINUS_EPSILON)))
+        u.iter().all(|x| x.is_finite()).then(|| u.map(num::clamp_unit))
     }
 }
 
@@ -243,7 +243,7 @@ impl SampledShape for Disk {
         let (a, b) = self.coordinates(point);
         // A thousandth of a nanometre beside a needle is many of its widths.
         let u = warp::disk_to_square(Vec2::new(a.clamp(-1.0, 1.0), b.clamp(-1.0, 1.0)));
-        u.map(|x| x.clamp(0.0, num::ONE_MINUS_EPSILON))
+        u.map(num::clamp_unit)
     }
 
     #[inline(always)]

@@ -3,7 +3,7 @@
 use super::{Receiver, SampledShape};
 use crate::geom::unit;
 use crate::measure::area_to_solid_angle;
-use crate::num::ONE_MINUS_EPSILON;
+use crate::num;
 use crate::shape::SurfacePoint;
 use glam::Vec3;
 
@@ -105,7 +105,7 @@ impl<S: SampledShape> SurfaceView for AreaView<S> {
 
     fn invert(&self, at: &SurfacePoint, _: Vec3) -> Option<[f32; 2]> {
         // A point at the edge is rounded to either side of it.
-        Some(self.shape.sample_area_inverse(at.point).map(|u| u.clamp(0.0, ONE_MINUS_EPSILON)))
+        Some(self.shape.sample_area_inverse(at.point).map(num::clamp_unit))
     }
 }
 

@@ -65,6 +65,6 @@ impl SurfaceView for SphereInside {
         } else {
             return None;
         };
-        Some(u.map(|x| x.clamp(0.0, num::ONE_MINUS_EPSILON)))
+        Some(u.map(num::clamp_unit))
     }
 }

@@ -77,7 +77,7 @@ impl SampledShape for Sphere {
 
     fn sample_area_inverse(&self, point: Vec3) -> [f32; 2] {
         let n = unit(point - self.centre()).unwrap_or(Vec3::Z);
-        warp::uniform_sphere_inverse(n).map(|x| x.clamp(0.0, num::ONE_MINUS_EPSILON))
+        warp::uniform_sphere_inverse(n).map(num::clamp_unit)
     }
 
     /// From outside, the far side is hidden.
