@@ -198,7 +198,7 @@ impl SphericalTriangle {
         let (b1, b2) = (1.0 - part, part * share);
         let way = self.origin + self.edges[0] * b1 + self.edges[1] * b2;
         let distance = way.length();
-        (distance as f32 > 0.0).then(|| TrianglePlace {
+        (distance as f32 > 0.0 && distance < f64::from(f32::MAX)).then(|| TrianglePlace {
             barycentric: [b1, b2],
             direction: (way / distance).as_vec3(),
             distance: distance as f32,
