@@ -9,23 +9,23 @@ use halflight::light::{AnyLight, Constant, Directional, Point, SurfaceDensity};
 use halflight::sequence::{Sequence, Sobol};
 use halflight::shape::{AnyShape, Cylinder, Disk, Rectangle, Sphere, Triangle};
 use halflight_tests::oracle;
-use halflight_tests::scenes::{Stage, eyes, seen, seen_as_difference, seen_at_origin, to_origin};
+use halflight_tests::scenes::{Stage, eyes, seen, seen_at_origin};
 use halflight_tests::{Verdict, ensure};
 use std::f64::consts::PI;
 
-const BLACK: usize = 0;
-const WHITE: usize = 1;
-const GLOSSY: usize = 2;
-const SAMPLES: u32 = 1 << 16;
+pub(crate) const BLACK: usize = 0;
+pub(crate) const WHITE: usize = 1;
+pub(crate) const GLOSSY: usize = 2;
+pub(crate) const SAMPLES: u32 = 1 << 16;
 /// What single precision adds to a mean.
-const ROUNDING: f64 = 1e-5;
+pub(crate) const ROUNDING: f64 = 1e-5;
 
 /// Every way of sampling a surface.
-const SURFACES: [SurfaceDensity; 4] =
+pub(crate) const SURFACES: [SurfaceDensity; 4] =
     [SurfaceDensity::Area, SurfaceDensity::SolidAngle, SurfaceDensity::Projected, SurfaceDensity::Auto];
 
 /// Facing down, `a` by `b`.
-fn panel(centre: Vec3, a: f32, b: f32) -> AnyShape {
+pub(crate) fn panel(centre: Vec3, a: f32, b: f32) -> AnyShape {
     AnyShape::Rectangle(Rectangle::new(centre, Vec3::X * (0.5 * a), Vec3::Z * (0.5 * b)).unwrap())
 }
 
@@ -51,7 +51,7 @@ pub(crate) fn several() -> Stage {
     several_over(GLOSSY)
 }
 
-fn several_over(floor: usize) -> Stage {
+pub(crate) fn several_over(floor: usize) -> Stage {
     let tube = Cylinder::new(Vec3::new(-1.5, 0.3, 1.0), Vec3::new(0.5, 0.8, 0.3), 0.2).unwrap();
     let corners = [Vec3::new(1.0, 1.0, 1.0), Vec3::new(1.5, 1.2, 0.2), Vec3::new(1.2, 2.0, 0.8)];
     Stage::floor(floor)
@@ -163,55 +163,6 @@ fn a_polygon_cut_by_an_edge_is_clipped() -> Verdict {
     let truth = 3.0 * oracle::polygon_irradiance(DVec3::ZERO, DVec3::Y, &rest) / PI;
     seen_at_origin(&buffers, &Direct::default(), Vec3::new(-1.0, 1.0, 0.0), SAMPLES)
         .check_mean("penumbra", truth, 2e-5)
-}
-
-/// Closed forms less what is blocked have the same mean as sampling what is not.
-mod control_variates {
-    use super::*;
-
-    fn check(stage: &Stage) -> Verdict {
-        let buffers = stage.build();
-        let ray = to_origin(Vec3::new(0.4, 0.8, 1.0));
-        let reference = seen(&buffers, &Direct::default(), &ray, 4 * SAMPLES);
-        for surface in SURFACES {
-            for choice in [LightChoice::All, LightChoice::Uniform] {
-                let technique = Technique::Control(Heuristic::Power);
-                let direct = Direct { technique, surface, choice, ..Direct::default() };
-                let moments = seen_as_difference(&buffers, &direct, &ray, SAMPLES);
-                moments.check_same(&format!("{surface:?} {choice:?}"), &reference, ROUNDING)?;
-            }
-        }
-        Ok(())
-    }
-
-    #[test]
-    fn agree_on_a_matte_floor_under_several_lights() -> Verdict {
-        check(&several_over(WHITE))
-    }
-
-    #[test]
-    fn agree_on_a_glossy_floor_where_they_have_no_use() -> Verdict {
-        check(&several())
-    }
-
-    #[test]
-    fn agree_in_shadow() -> Verdict {
-        check(&Stage::floor(WHITE).lit(panel(Vec3::Y * 2.0, 1.6, 1.6), 3.0).with(ball(Vec3::Y, 0.45), BLACK))
-    }
-
-    #[test]
-    fn agree_with_both_sides_of_the_lights() -> Verdict {
-        check(&Stage::floor(WHITE).lit(ball(Vec3::Y * 1.5, 0.5), 3.0).two_sided())
-    }
-
-    #[test]
-    fn have_no_noise_in_the_open() {
-        let stage = Stage::floor(WHITE).lit(panel(Vec3::new(0.2, 0.7, 0.0), 1.0, 1.4), 3.0);
-        let technique = Technique::Control(Heuristic::Power);
-        let direct = Direct { technique, surface: SurfaceDensity::Area, ..Direct::default() };
-        let moments = seen(&stage.build(), &direct, &to_origin(Vec3::ONE), 256);
-        assert_eq!(moments.variance(), 0.0);
-    }
 }
 
 /// Inside light of the same radiance from everywhere, a white object cannot be seen.

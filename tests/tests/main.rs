@@ -3,6 +3,7 @@
 mod bsdfs;
 mod bvh;
 mod closed_forms;
+mod control_variates;
 mod delta;
 mod estimators;
 mod extremes;
