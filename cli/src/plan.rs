@@ -2,7 +2,7 @@
 
 use crate::args::{Choices, Choose, Heuristic, Lights, Sequence, Technique};
 use crate::failure::Failure;
-use halflight::build::{Description, SceneBuffers};
+use halflight::build::{BoundScene, Description, SceneBuffers};
 use halflight::choose::LightChoice;
 use halflight::estimate::{AnyEstimator, Direct, Heuristic as Weights, Occlusion, Technique as Combine};
 use halflight::light::{AnyLight, Emitter, SurfaceDensity};
@@ -80,13 +80,14 @@ const fn technique_name(technique: Technique) -> &'static str {
 pub(crate) fn make(
     choices: &Choices,
     description: &Description,
-    buffers: &SceneBuffers,
+    bound: &BoundScene<'_>,
 ) -> Result<Plan, Failure> {
     let sobol = choices.sequence != Sequence::Random;
     if choices.technique == Technique::Occlusion {
         return Ok(Plan::Occlusion { reach: choices.occlusion_distance.unwrap_or(f32::INFINITY), sobol });
     }
-    check_lights(description, buffers.scene().lights())?;
+    let lights = bound.scene().lights();
+    check_lights(description, lights)?;
     let author = &description.integrator;
     let surface = match choices.lights {
         Lights::Area => SurfaceDensity::Area,
@@ -99,7 +100,7 @@ pub(crate) fn make(
         light_samples: choices.light_samples.or(author.light_samples).unwrap_or(1).max(1),
         bsdf_samples: choices.bsdf_samples.or(author.bsdf_samples).unwrap_or(1).max(1),
         surface,
-        choice: choice(choices.choose, buffers),
+        choice: choice(choices.choose, lights.len()),
         sobol,
     })
 }
@@ -123,18 +124,18 @@ fn technique(choices: &Choices, light_samples: Option<u32>, bsdf_samples: Option
 }
 
 /// Which light a sample goes to.
-fn choice(asked: Choose, buffers: &SceneBuffers) -> Choice {
+fn choice(asked: Choose, lights: usize) -> Choice {
     match asked {
         Choose::All => Choice::All,
         Choose::Uniform => Choice::Uniform,
         Choose::Power => Choice::Power,
-        Choose::Auto if buffers.scene().lights().len() <= FEW_LIGHTS => Choice::All,
+        Choose::Auto if lights <= FEW_LIGHTS => Choice::All,
         Choose::Auto => Choice::Power,
     }
 }
 
 /// A picture that would be black is refused.
-fn check_lights(description: &Description, lights: &[AnyLight]) -> Result<(), Failure> {
+fn check_lights(description: &Description, lights: &[AnyLight<'_>]) -> Result<(), Failure> {
     // Any radius will do: it does not decide whether a light is dark.
     if lights.iter().any(|l| l.power(1.0) > 0.0) {
         return Ok(());

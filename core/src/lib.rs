@@ -17,7 +17,7 @@
 //! that is seen, is what makes umbra (0), penumbra (between) and light (1).
 //!
 //! The crate is `no_std` and allocates nothing: a [`Scene`] is a set of borrowed slices, traversal uses
-//! a stack of fixed size, and everything is generic over the kinds of shape, light and BSDF, so that a
+//! a stack of fixed size, and everything is generic over the kinds of shape, light and material, so that a
 //! program links only what its scene holds. Its arithmetic is the same on every target: no platform's
 //! libm, no fused multiply-add, a fixed order of sums.
 //!
@@ -30,7 +30,7 @@
 //! use halflight::geom::Ray;
 //! use halflight::glam::Vec3;
 //! use halflight::light::AreaLight;
-//! use halflight::scene::{NONE, Scene, Surface};
+//! use halflight::scene::{NONE, Scene, Surface, Tables};
 //! use halflight::sequence::{Sequence, Sobol};
 //! use halflight::shape::{Rectangle, Shape};
 //! use halflight::Rgb;
@@ -39,15 +39,16 @@
 //! let floor = Rectangle::new(Vec3::ZERO, Vec3::X * 5.0, Vec3::NEG_Z * 5.0)?;
 //! let panel = Rectangle::new(Vec3::Y * 2.0, Vec3::X * 0.5, Vec3::Z * 0.5)?; // faces down
 //! let lights = [AreaLight::new(panel, Rgb::splat(10.0))?];
-//! let bsdfs = [Lambert::new(Rgb::splat(0.5))?];
+//! let materials = [Lambert::new(Rgb::splat(0.5))?];
 //! let surfaces = [
-//!     Surface { shape: floor, bsdf: 0, light: NONE, normals: NONE },
-//!     Surface { shape: panel, bsdf: 0, light: 0, normals: NONE },
+//!     Surface { shape: floor, material: 0, light: NONE, normals: NONE, uvs: NONE },
+//!     Surface { shape: panel, material: 0, light: 0, normals: NONE, uvs: NONE },
 //! ];
 //! let nodes = [Node::EMPTY
 //!     .with_child(0, Child::Leaf { first: 0, count: 1 }, floor.bounds())
 //!     .with_child(1, Child::Leaf { first: 1, count: 1 }, panel.bounds())];
-//! let scene = Scene::new(Bvh::new(&nodes, surfaces.len())?, &surfaces, &[], &lights, &bsdfs)?;
+//! let tables = Tables { surfaces: &surfaces, lights: &lights, materials: &materials, ..Tables::EMPTY };
+//! let scene = Scene::new(Bvh::new(&nodes, surfaces.len())?, tables)?;
 //!
 //! // What an eye at (0, 1, 3) sees of the floor under the lamp.
 //! let (eye, mut sequence) = (Vec3::new(0.0, 1.0, 3.0), Sobol::new(1));
@@ -105,6 +106,7 @@ pub mod irradiance;
 pub mod light;
 #[cfg(feature = "load")]
 pub mod load;
+pub mod material;
 pub mod measure;
 pub mod num;
 pub mod projected;

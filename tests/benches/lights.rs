@@ -140,7 +140,8 @@ fn time_queries<S: SampledShape>(
 /// Nanoseconds for a shadow ray among 100 000 triangles.
 fn shadow_ray(criterion: &mut Criterion) -> f64 {
     let buffers = bumpy_ground(224);
-    let scene = buffers.scene();
+    let bound = buffers.bind();
+    let scene = bound.scene();
     let mut random = Uniforms::new(34);
     let mut rays = Vec::new();
     while rays.len() < RECEIVERS {

@@ -49,6 +49,7 @@ impl Stage {
             ],
             objects: Vec::new(),
             lights: Vec::new(),
+            environments: Vec::new(),
         })
     }
 
@@ -89,7 +90,7 @@ impl Stage {
 
     /// With a light that is no surface.
     #[must_use]
-    pub fn lit_by(mut self, light: AnyLight) -> Self {
+    pub fn lit_by(mut self, light: AnyLight<'static>) -> Self {
         self.0.lights.push(light);
         self
     }
@@ -163,7 +164,8 @@ fn arriving(
     samples: u32,
     is_proper: fn(Rgb) -> bool,
 ) -> Moments {
-    let scene = buffers.scene();
+    let bound = buffers.bind();
+    let scene = bound.scene();
     let mut sequence: Random = Random::new(101);
     Moments::of((0..samples).map(|sample| {
         sequence.start(7, sample);

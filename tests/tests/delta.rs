@@ -27,7 +27,7 @@ fn has_no_density(light: &impl Emitter, from: &Receiver) -> Verdict {
         };
         let pdf = light.pdf_solid_angle(from, SurfaceDensity::Area, drawn.wi, &at);
         ensure!(pdf == 0.0 && light.pdf_escaping(from, drawn.wi) == 0.0, "density {pdf} of a delta light");
-        ensure!(light.radiance(at.normal, -drawn.wi).is_black(), "a delta light is seen");
+        ensure!(light.radiance(&at, -drawn.wi).is_black(), "a delta light is seen");
         ensure!(light.radiance_escaping(drawn.wi).is_black(), "a delta light is seen");
     }
     ensure!(light.is_delta() && !light.is_environment(), "it does not say what it is");

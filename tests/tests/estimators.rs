@@ -38,11 +38,11 @@ pub(crate) fn ball(centre: Vec3, radius: f32) -> AnyShape {
     AnyShape::Sphere(Sphere::new(centre, radius).unwrap())
 }
 
-fn constant(radiance: f32) -> AnyLight {
+fn constant(radiance: f32) -> AnyLight<'static> {
     AnyLight::Constant(Constant::new(Rgb::splat(radiance)).unwrap())
 }
 
-pub(crate) fn point(position: Vec3, intensity: f32) -> AnyLight {
+pub(crate) fn point(position: Vec3, intensity: f32) -> AnyLight<'static> {
     AnyLight::Point(Point::new(position, Rgb::splat(intensity)).unwrap())
 }
 
@@ -337,7 +337,8 @@ fn two_halves_of_a_light_are_the_light() -> Verdict {
 fn both_sequences_have_the_same_mean() -> Verdict {
     let stage = several();
     let buffers = stage.build();
-    let scene = buffers.scene();
+    let bound = buffers.bind();
+    let scene = bound.scene();
     let eye = Vec3::new(0.4, 0.8, 1.0).normalize();
     let ray = Ray::new(eye * 5e-4, -eye);
     let random = seen(&buffers, &Direct::default(), &ray, 4 * SAMPLES);

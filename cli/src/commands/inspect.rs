@@ -7,7 +7,7 @@ use crate::plan::{self, Plan};
 use crate::progress::Step;
 use crate::{scene, terminal};
 use halflight::bsdf::{AnyBsdf, TwoSided};
-use halflight::build::{CameraDescription, Description, ProjectionDescription, SceneBuffers};
+use halflight::build::{CameraDescription, Description, ProjectionDescription, SceneBuffers, SceneStats};
 use halflight::bvh::STACK;
 use halflight::estimate::PixelStats;
 use halflight::film::Filter;
@@ -28,7 +28,16 @@ const BREAK: &str = "\n            ";
 struct Contents {
     shapes: Kinds,
     lights: Kinds,
-    bsdfs: Kinds,
+    materials: Kinds,
+}
+
+/// Everything that is told.
+struct Inspected<'a> {
+    description: &'a Description,
+    stats: SceneStats,
+    contents: Contents,
+    plan: Option<Plan>,
+    left_out: Vec<&'static str>,
 }
 
 /// Describes a scene.
@@ -42,13 +51,18 @@ pub(crate) fn run(args: &InspectArgs) -> Result<Exit, Failure> {
         (found, buffers)
     };
     found.print_warnings();
-    let contents = contents(buffers.scene());
+    let bound = buffers.bind();
+    let scene = bound.scene();
+    let contents = contents(scene);
     // A scene without lights can still be inspected.
-    let plan = plan::make(&Choices::default(), &found.description, &buffers).ok();
+    let plan = plan::make(&Choices::default(), &found.description, &bound).ok();
+    let left_out = left_out(scene, plan.as_ref());
+    let inspected =
+        Inspected { description: &found.description, stats: buffers.stats(), contents, plan, left_out };
     if args.json {
-        terminal::json(&object(&found.description, &buffers, &contents, plan.as_ref()))?;
+        terminal::json(&object(&inspected))?;
     } else {
-        terminal::result(&table(&found.description, &buffers, &contents, plan.as_ref()))?;
+        terminal::result(&table(&inspected))?;
     }
     Ok(Exit::Good)
 }
@@ -65,7 +79,7 @@ fn contents(scene: AnyScene<'_>) -> Contents {
     Contents {
         shapes: kinds(scene.surfaces().iter().map(|s| shape(&s.shape))),
         lights: kinds(scene.lights().iter().map(AnyLight::name)),
-        bsdfs: kinds(scene.bsdfs().iter().map(bsdf_kind)),
+        materials: kinds(scene.materials().iter().map(bsdf_kind)),
     }
 }
 
@@ -107,14 +121,8 @@ fn film_bytes(description: &Description) -> u64 {
 }
 
 /// The description for people.
-fn table(
-    description: &Description,
-    buffers: &SceneBuffers,
-    contents: &Contents,
-    plan: Option<&Plan>,
-) -> String {
-    let stats = buffers.stats();
-    let left_out = left_out(buffers.scene(), plan);
+fn table(inspected: &Inspected<'_>) -> String {
+    let Inspected { description, stats, contents, plan, left_out } = inspected;
     let samples = description.samples_per_pixel.map_or_else(
         || "not said by the scene".to_owned(),
         |n| format!("{} per pixel, says the scene", grouped(u64::from(n))),
@@ -128,28 +136,24 @@ fn table(
         ("camera", camera(&description.camera)),
         ("samples", samples),
         ("surfaces", listed(&contents.shapes)),
-        ("materials", listed_materials(&contents.bsdfs)),
+        ("materials", listed_materials(&contents.materials)),
         ("lights", listed(&contents.lights)),
         ("tree", format!("{}, stack {} of {STACK}", counted(stats.nodes as u64, "node"), stats.stack)),
         ("memory", format!("{} scene, {} film", bytes(stats.bytes as u64), bytes(film_bytes(description)))),
-        ("auto takes", plan.map_or_else(|| "nothing: there is no light".to_owned(), choices)),
+        ("auto takes", plan.as_ref().map_or_else(|| "nothing: there is no light".to_owned(), choices)),
         ("left out", if left_out.is_empty() { "nothing".to_owned() } else { left_out.join(BREAK) }),
     ];
     rows.iter().map(|(name, value)| format!("{name:10}  {value}")).collect::<Vec<_>>().join("\n")
 }
 
 /// The description for scripts.
-fn object(
-    description: &Description,
-    buffers: &SceneBuffers,
-    contents: &Contents,
-    plan: Option<&Plan>,
-) -> Value {
-    let stats = buffers.stats();
+fn object(inspected: &Inspected<'_>) -> Value {
+    let Inspected { description, stats, contents, plan, left_out } = inspected;
     let counts =
         |kinds: &Kinds| kinds.iter().map(|(k, n)| ((*k).to_owned(), json!(n))).collect::<Map<_, _>>();
-    let choices =
-        plan.map(|p| p.flags().into_iter().map(|(k, v)| (k.to_owned(), json!(v))).collect::<Map<_, _>>());
+    let choices = plan
+        .as_ref()
+        .map(|p| p.flags().into_iter().map(|(k, v)| (k.to_owned(), json!(v))).collect::<Map<_, _>>());
     json!({
         "scene": description.name,
         "film": {
@@ -162,12 +166,12 @@ fn object(
         "samples_per_pixel": description.samples_per_pixel,
         "surfaces": counts(&contents.shapes),
         "degenerate_triangles": stats.degenerate,
-        "materials": counts(&contents.bsdfs),
+        "materials": counts(&contents.materials),
         "lights": counts(&contents.lights),
         "tree": { "nodes": stats.nodes, "stack": stats.stack, "stack_limit": STACK },
         "bytes": stats.bytes,
         "auto": choices,
-        "left_out": left_out(buffers.scene(), plan),
+        "left_out": left_out,
     })
 }
 
@@ -209,12 +213,12 @@ fn left_out(scene: AnyScene<'_>, plan: Option<&Plan>) -> Vec<&'static str> {
     } else if plan.is_some_and(Plan::samples_every_light) {
         left_out.push("choosing a light (each is sampled)");
     }
-    if scene.environment().is_none() {
+    if scene.environments().next().is_none() {
         left_out.push("environment (no light surrounds the scene)");
     }
     if !scene.has_light_to_meet() {
         left_out.push("BSDF samples (no ray can meet a light)");
-    } else if scene.bsdfs().iter().all(|b| bsdf_kind(b) == "diffuse") {
+    } else if scene.materials().iter().all(|b| bsdf_kind(b) == "diffuse") {
         left_out.push("BSDF samples (every material is diffuse)");
     }
     if scene.surfaces().is_empty() {

@@ -90,7 +90,7 @@ fn prepare(args: &RenderArgs) -> Result<Prepared, Failure> {
         seconds.build = start.elapsed().as_secs_f64();
         buffers
     };
-    let plan = plan::make(&args.choices, &found.description, &buffers).map_err(|e| e.about(&name))?;
+    let plan = plan::make(&args.choices, &found.description, &buffers.bind()).map_err(|e| e.about(&name))?;
     let samples = args.spp.or(found.description.samples_per_pixel).unwrap_or(DEFAULT_SAMPLES);
     if samples == 0 {
         return Err(Failure::new("0 samples per pixel make no picture")
@@ -158,8 +158,9 @@ fn size(args: &RenderArgs, description: &Description) -> (u32, u32) {
 /// Takes the samples.
 fn render(args: &RenderArgs, prepared: &Prepared) -> Result<Rendered, Failure> {
     let Prepared { buffers, camera, film, plan, samples, .. } = prepared;
+    let bound = buffers.bind();
     let job = Job {
-        scene: buffers.scene(),
+        scene: bound.scene(),
         camera: *camera,
         film: *film,
         estimator: plan.estimator(buffers),

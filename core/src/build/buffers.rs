@@ -1,13 +1,13 @@
 //! The tables of a scene, owned.
 
 use super::primitives::{Primitive, list};
-use super::{BuildError, Description, build_tree};
+use super::{BoundScene, BuildError, Description, EnvironmentDescription, build_tree};
 use crate::bsdf::{AnyBsdf, TwoSided};
-use crate::bvh::{Bvh, Node};
+use crate::bvh::Node;
 use crate::choose::PowerTable;
 use crate::geom::Aabb;
 use crate::light::{AnyLight, Emitter};
-use crate::scene::{AnyScene, CornerNormals, NONE, Scene, Surface};
+use crate::scene::{CornerNormals, NONE, Surface};
 use crate::shape::{AnyShape, Shape};
 use core::mem::size_of_val;
 use std::vec;
@@ -16,13 +16,15 @@ use std::vec::Vec;
 /// Everything that a [`Scene`] borrows.
 #[derive(Debug, Clone)]
 pub struct SceneBuffers {
-    nodes: Vec<Node>,
-    surfaces: Vec<Surface<AnyShape>>,
-    normals: Vec<CornerNormals>,
-    lights: Vec<AnyLight>,
-    bsdfs: Vec<TwoSided<AnyBsdf>>,
+    pub(super) nodes: Vec<Node>,
+    pub(super) surfaces: Vec<Surface<AnyShape>>,
+    pub(super) normals: Vec<CornerNormals>,
+    pub(super) lights: Vec<AnyLight<'static>>,
+    pub(super) environments: Vec<EnvironmentDescription>,
+    pub(super) materials: Vec<TwoSided<AnyBsdf>>,
     power: Vec<f32>,
     degenerate: usize,
+    stack: usize,
 }
 
 /// What a scene holds.
@@ -36,8 +38,8 @@ pub struct SceneStats {
     pub analytic: usize,
     /// Lights, counting each emitting triangle.
     pub lights: usize,
-    /// BSDFs.
-    pub bsdfs: usize,
+    /// Materials.
+    pub materials: usize,
     /// Nodes of the tree.
     pub nodes: usize,
     /// Stack entries that the worst ray needs.
@@ -62,24 +64,28 @@ impl SceneBuffers {
             nodes: tree.nodes,
             surfaces: Vec::with_capacity(primitives.len()),
             normals: Vec::new(),
-            lights: description.lights.clone(),
-            bsdfs: description.materials.iter().map(|m| m.bsdf).collect(),
+            lights: Vec::new(),
+            environments: description.environments.clone(),
+            materials: description.materials.iter().map(|m| m.bsdf).collect(),
             power: Vec::new(),
             degenerate,
+            stack: 0,
         };
         buffers.place(description, &primitives, &tree.order)?;
-        buffers.share_power(0.5 * bounds.diagonal());
-        buffers.try_scene()?;
+        buffers.share_power(0.5 * bounds.diagonal())?;
         Ok(buffers)
     }
 
-    /// Puts the surfaces where the tree looks for them; lights keep the order of the description.
+    /// Puts the surfaces where the tree looks for them; lights keep the order of the description, but
+    /// for those around the scene, which come last.
     fn place(
         &mut self,
         description: &Description,
         primitives: &[Primitive],
         order: &[u32],
     ) -> Result<(), BuildError> {
+        let (around, mut lights): (Vec<_>, Vec<_>) =
+            description.lights.iter().partition::<Vec<AnyLight<'static>>, _>(|l| l.is_environment());
         let mut light_of = vec![NONE; primitives.len()];
         for (primitive, light) in primitives.iter().zip(&mut light_of) {
             if description.objects[primitive.object as usize].emission.is_none() {
@@ -87,10 +93,12 @@ impl SceneBuffers {
             }
             let Some(shape) = primitive.shape(description) else { continue };
             if let Some(l) = primitive.light(description, shape)? {
-                *light = self.lights.len() as u32;
-                self.lights.push(l);
+                *light = lights.len() as u32;
+                lights.push(l);
             }
         }
+        lights.extend(around);
+        self.lights = lights;
         for &index in order {
             let primitive = &primitives[index as usize];
             let Some(shape) = primitive.shape(description) else { continue };
@@ -101,32 +109,38 @@ impl SceneBuffers {
                 }
                 None => NONE,
             };
-            let bsdf = description.objects[primitive.object as usize].material as u32;
-            self.surfaces.push(Surface { shape, bsdf, light: light_of[index as usize], normals });
+            let material = description.objects[primitive.object as usize].material as u32;
+            self.surfaces.push(Surface {
+                shape,
+                material,
+                light: light_of[index as usize],
+                normals,
+                uvs: NONE,
+            });
         }
         Ok(())
     }
 
     /// Fills the table of cumulative powers; it stays empty where there is no power.
-    fn share_power(&mut self, scene_radius: f32) {
-        let mut table = vec![0.0; self.lights.len()];
-        if PowerTable::fill(&mut table, |i| self.lights[i].power(scene_radius)) {
+    fn share_power(&mut self, scene_radius: f32) -> Result<(), BuildError> {
+        let bound = BoundScene::new(self)?;
+        let lights = bound.scene().lights();
+        let stack = bound.scene().bvh().stack_needed();
+        let mut table = vec![0.0; lights.len()];
+        if PowerTable::fill(&mut table, |i| lights[i].power(scene_radius)) {
             self.power = table;
         }
+        self.stack = stack;
+        Ok(())
     }
 
-    fn try_scene(&self) -> Result<AnyScene<'_>, BuildError> {
-        let bvh = Bvh::new(&self.nodes, self.surfaces.len())?;
-        Ok(Scene::new(bvh, &self.surfaces, &self.normals, &self.lights, &self.bsdfs)?)
-    }
-
-    /// The scene, borrowed.
+    /// Binds the tables to one another: what a scene borrows from.
     ///
     /// # Panics
-    /// Never: [`SceneBuffers::new`] has made this very scene once, and nothing has changed since.
+    /// Never: [`SceneBuffers::new`] has done this very thing once, and nothing has changed since.
     #[must_use]
-    pub fn scene(&self) -> AnyScene<'_> {
-        self.try_scene().expect("checked when the buffers were made")
+    pub fn bind(&self) -> BoundScene<'_> {
+        BoundScene::new(self).expect("checked when the buffers were made")
     }
 
     /// Powers of the lights for choosing among them; `None` when no light has any.
@@ -139,20 +153,19 @@ impl SceneBuffers {
     #[must_use]
     pub fn stats(&self) -> SceneStats {
         let triangles = self.surfaces.iter().filter(|s| matches!(s.shape, AnyShape::Triangle(_))).count();
-        let scene = self.scene();
         SceneStats {
             triangles,
             degenerate: self.degenerate,
             analytic: self.surfaces.len() - triangles,
-            lights: self.lights.len(),
-            bsdfs: self.bsdfs.len(),
+            lights: self.lights.len() + self.environments.len(),
+            materials: self.materials.len(),
             nodes: self.nodes.len(),
-            stack: scene.bvh().stack_needed(),
+            stack: self.stack,
             bytes: size_of_val(&*self.nodes)
                 + size_of_val(&*self.surfaces)
                 + size_of_val(&*self.normals)
                 + size_of_val(&*self.lights)
-                + size_of_val(&*self.bsdfs)
+                + size_of_val(&*self.materials)
                 + size_of_val(&*self.power),
         }
     }

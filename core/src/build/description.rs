@@ -10,8 +10,9 @@ use crate::film::Filter;
 use crate::light::AnyLight;
 use crate::num;
 use crate::shape::AnyShape;
-use glam::Vec3;
+use glam::{Mat3, Vec3};
 use std::string::String;
+use std::sync::Arc;
 use std::vec::Vec;
 
 /// A whole scene.
@@ -36,7 +37,30 @@ pub struct Description {
     /// Surfaces, some of which emit.
     pub objects: Vec<Object>,
     /// Lights without a surface: point, spot, directional, constant.
-    pub lights: Vec<AnyLight>,
+    pub lights: Vec<AnyLight<'static>>,
+    /// Pictures of the light from all around.
+    pub environments: Vec<EnvironmentDescription>,
+}
+
+/// A picture of the light from all around, with a place of its own in the scene's description because
+/// it is large: descriptions share it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EnvironmentDescription {
+    /// Radiance (W m⁻² sr⁻¹) in longitude and latitude, the zenith on top.
+    pub image: Arc<Image>,
+    /// A rotation.
+    pub to_world: Mat3,
+}
+
+/// A linear picture.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Image {
+    /// Columns.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// `width × height` texels, row by row from the top.
+    pub texels: Vec<Rgb>,
 }
 
 /// How the direct light is to be integrated, as far as the author says.

@@ -1,15 +1,17 @@
 //! From an owned description of a scene to the borrowed scene that the kernel renders (std).
 
+mod bound;
 mod buffers;
 mod description;
 mod error;
 mod primitives;
 mod tree;
 
+pub use bound::BoundScene;
 pub use buffers::{SceneBuffers, SceneStats};
 pub use description::{
-    CameraDescription, Description, Emission, FovAxis, Geometry, IntegratorDescription, Material, Mesh,
-    Object, ProjectionDescription,
+    CameraDescription, Description, Emission, EnvironmentDescription, FovAxis, Geometry, Image,
+    IntegratorDescription, Material, Mesh, Object, ProjectionDescription,
 };
 pub use error::BuildError;
 pub use tree::{Tree, build_tree};

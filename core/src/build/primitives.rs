@@ -84,7 +84,7 @@ impl Primitive {
         &self,
         description: &Description,
         shape: AnyShape,
-    ) -> Result<Option<AnyLight>, BuildError> {
+    ) -> Result<Option<AnyLight<'static>>, BuildError> {
         let object = &description.objects[self.object as usize];
         let Some(emission) = object.emission.filter(|e| !e.radiance.is_valid() || !e.radiance.is_black())
         else {

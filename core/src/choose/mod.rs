@@ -4,6 +4,8 @@ mod power;
 
 pub use power::PowerTable;
 
+use crate::light::Receiver;
+
 /// How the lights of a scene share the light samples of a shading point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum LightChoice<'a> {
@@ -16,25 +18,28 @@ pub enum LightChoice<'a> {
 }
 
 impl LightChoice<'_> {
-    /// The light for a uniform `u` in `[0, 1)`, among `lights`; `None` when there is none.
+    /// The light for `from` and a uniform `u` in `[0, 1)`, among `lights`, and its
+    /// probability; `None` when there is none.
     /// Not for [`LightChoice::All`], which chooses none.
     #[inline]
     #[must_use]
-    pub(crate) fn choose(&self, lights: usize, u: f32) -> Option<usize> {
-        match self {
+    pub(crate) fn choose(&self, from: &Receiver, lights: usize, u: f32) -> Option<(usize, f32)> {
+        let light = match self {
             Self::All => None,
             Self::Uniform => {
                 let index = (u * lights as f32) as usize;
                 (lights > 0).then(|| index.min(lights - 1))
             }
             Self::Power(table) => table.choose(u),
-        }
+        }?;
+        Some((light, self.pmf(from, lights, light)))
     }
 
-    /// Probability with which a light sample goes to `light`, among `lights`; 1 when all get it.
+    /// Probability with which a light sample of `from` goes to `light`, among `lights`; 1 when all get it.
     #[inline]
     #[must_use]
-    pub fn pmf(&self, lights: usize, light: usize) -> f32 {
+    pub fn pmf(&self, from: &Receiver, lights: usize, light: usize) -> f32 {
+        let _ = from;
         match self {
             Self::All => 1.0,
             Self::Uniform => 1.0 / lights as f32,

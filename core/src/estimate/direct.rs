@@ -12,6 +12,7 @@ use crate::bsdf::Bsdf;
 use crate::choose::LightChoice;
 use crate::geom::{Ray, offset_origin};
 use crate::light::{Density, Emitter, SurfaceDensity};
+use crate::material::Material;
 use crate::scene::Scene;
 use crate::sequence::{Dimension, Sequence};
 use crate::shape::Shape;
@@ -75,10 +76,10 @@ impl Default for Direct<'_> {
 impl Direct<'_> {
     /// Light that the surface point reflects toward the viewer (W m⁻² sr⁻¹): one sample.
     #[inline]
-    fn reflected<S: Shape, L: Emitter, B: Bsdf>(
+    fn reflected<S: Shape, L: Emitter, M: Material>(
         &self,
-        scene: &Scene<'_, S, L, B>,
-        shading: &Shading<'_, B>,
+        scene: &Scene<'_, S, L, M>,
+        shading: &Shading<'_, M::Bsdf>,
         sequence: &mut impl Sequence,
     ) -> Rgb {
         let plan = self.plan(scene, shading.bsdf());
@@ -94,7 +95,7 @@ impl Direct<'_> {
 
     /// How many samples of each kind this point gets.
     #[inline]
-    fn plan<S: Shape, L: Emitter, B: Bsdf>(&self, scene: &Scene<'_, S, L, B>, bsdf: &B) -> Plan {
+    fn plan<S: Shape, L: Emitter, M: Material>(&self, scene: &Scene<'_, S, L, M>, bsdf: &M::Bsdf) -> Plan {
         let diffuse = bsdf.is_diffuse();
         let (light, bsdf_samples, heuristic) = match self.technique {
             Technique::Light => (self.light_samples, 0, Heuristic::Power),
@@ -111,10 +112,10 @@ impl Direct<'_> {
 
     /// The light-sampling part: over every light, or over a chosen one for each sample.
     #[inline]
-    fn over_lights<S: Shape, L: Emitter, B: Bsdf>(
+    fn over_lights<S: Shape, L: Emitter, M: Material>(
         &self,
-        scene: &Scene<'_, S, L, B>,
-        shading: &Shading<'_, B>,
+        scene: &Scene<'_, S, L, M>,
+        shading: &Shading<'_, M::Bsdf>,
         plan: Plan,
         sequence: &mut impl Sequence,
     ) -> Rgb {
@@ -131,8 +132,7 @@ impl Direct<'_> {
         } else {
             for draw in 0..draws {
                 let choice = sequence.choice(Dimension::Light(0), draw, draws);
-                if let Some(light) = self.choice.choose(lights, choice) {
-                    let pmf = self.choice.pmf(lights, light);
+                if let Some((light, pmf)) = self.choice.choose(&shading.receiver, lights, choice) {
                     let u = sequence.point(Dimension::Light(0), draw, draws);
                     sum += self.toward(scene, shading, plan, light, pmf, u);
                 }
@@ -143,10 +143,10 @@ impl Direct<'_> {
 
     /// One sample of one light, chosen with probability `pmf`.
     #[inline]
-    fn toward<S: Shape, L: Emitter, B: Bsdf>(
+    fn toward<S: Shape, L: Emitter, M: Material>(
         &self,
-        scene: &Scene<'_, S, L, B>,
-        shading: &Shading<'_, B>,
+        scene: &Scene<'_, S, L, M>,
+        shading: &Shading<'_, M::Bsdf>,
         plan: Plan,
         light: usize,
         pmf: f32,
@@ -182,10 +182,10 @@ impl Direct<'_> {
 
     /// The BSDF-sampling part: directions over the hemisphere, and the light that they meet.
     #[inline]
-    fn over_hemisphere<S: Shape, L: Emitter, B: Bsdf>(
+    fn over_hemisphere<S: Shape, L: Emitter, M: Material>(
         &self,
-        scene: &Scene<'_, S, L, B>,
-        shading: &Shading<'_, B>,
+        scene: &Scene<'_, S, L, M>,
+        shading: &Shading<'_, M::Bsdf>,
         plan: Plan,
         sequence: &mut impl Sequence,
     ) -> Rgb {
@@ -195,41 +195,42 @@ impl Direct<'_> {
             let lobe = sequence.choice(Dimension::Bsdf, draw, plan.bsdf);
             let Some((wi, pdf)) = shading.sample(u, lobe) else { continue };
             let Some(reflected) = shading.reflect(wi).filter(|_| shading.is_outside(wi)) else { continue };
-            let Some((incident, pdf_light)) = self.met(scene, shading, wi) else { continue };
-            let weight = if plan.light == 0 {
-                1.0
-            } else {
-                plan.heuristic.weight(plan.bsdf as f32 * pdf, plan.light as f32 * pdf_light)
-            };
-            sum += reflected.f_cos * incident * (weight / pdf);
+            sum += reflected.f_cos * self.met(scene, shading, plan, wi, pdf) / pdf;
         }
         sum / plan.bsdf as f32
     }
 
-    /// The radiance that arrives along `wi`, and the density with which light sampling draws `wi`.
+    /// The radiance that arrives along `wi`, drawn by the BSDF with density `pdf`, weighted against
+    /// the light samples that draw it too.
     #[inline]
-    fn met<S: Shape, L: Emitter, B: Bsdf>(
+    fn met<S: Shape, L: Emitter, M: Material>(
         &self,
-        scene: &Scene<'_, S, L, B>,
-        shading: &Shading<'_, B>,
+        scene: &Scene<'_, S, L, M>,
+        shading: &Shading<'_, M::Bsdf>,
+        plan: Plan,
         wi: Vec3,
-    ) -> Option<(Rgb, f32)> {
+        pdf: f32,
+    ) -> Rgb {
+        let (from, lights) = (&shading.receiver, scene.lights().len());
+        let weighted = |incident: Rgb, index: usize, pdf_light: f32| {
+            let other = plan.light as f32 * pdf_light * self.choice.pmf(from, lights, index);
+            incident * plan.heuristic.weight(plan.bsdf as f32 * pdf, other)
+        };
         let at = &shading.at.at;
         let ray = Ray::new(offset_origin(at.point, at.error, at.normal, wi), wi);
-        let lights = scene.lights().len();
         match scene.closest_hit(&ray, f32::INFINITY) {
-            Some(hit) => {
-                let light = scene.lights().get(hit.light as usize)?;
-                let incident = light.radiance(hit.at.normal, -wi);
-                let pdf = light.pdf_solid_angle(&shading.receiver, self.surface, wi, &hit.at);
-                let pmf = self.choice.pmf(lights, hit.light as usize);
-                (!incident.is_black()).then_some((incident, pdf * pmf))
-            }
-            None => {
-                let (index, light) = scene.environment()?;
-                let pdf = light.pdf_escaping(&shading.receiver, wi);
-                Some((light.radiance_escaping(wi), pdf * self.choice.pmf(lights, index)))
-            }
+            Some(hit) => scene.lights().get(hit.light as usize).map_or(Rgb::BLACK, |light| {
+                let incident = light.radiance(&hit.at, -wi);
+                if plan.light == 0 || incident.is_black() {
+                    return incident;
+                }
+                let pdf_light = light.pdf_solid_angle(from, self.surface, wi, &hit.at);
+                weighted(incident, hit.light as usize, pdf_light)
+            }),
+            None if plan.light == 0 => scene.radiance_escaping(wi),
+            None => scene.environments().fold(Rgb::BLACK, |sum, (index, light)| {
+                sum + weighted(light.radiance_escaping(wi), index, light.pdf_escaping(from, wi))
+            }),
         }
     }
 }
@@ -237,7 +238,10 @@ impl Direct<'_> {
 /// What a diffuse point reflects when nothing is in the way: `f_r Σ E`, of the lights that have a
 /// closed form.
 #[inline]
-fn unshadowed<S: Shape, L: Emitter, B: Bsdf>(scene: &Scene<'_, S, L, B>, shading: &Shading<'_, B>) -> Rgb {
+fn unshadowed<S: Shape, L: Emitter, M: Material>(
+    scene: &Scene<'_, S, L, M>,
+    shading: &Shading<'_, M::Bsdf>,
+) -> Rgb {
     let irradiance =
         |sum: Rgb, light: &L| sum + light.unshadowed_irradiance(&shading.receiver).unwrap_or(Rgb::BLACK);
     shading.diffuse() * scene.lights().iter().fold(Rgb::BLACK, irradiance)
@@ -245,19 +249,20 @@ fn unshadowed<S: Shape, L: Emitter, B: Bsdf>(scene: &Scene<'_, S, L, B>, shading
 
 impl Estimator for Direct<'_> {
     #[inline]
-    fn sample<S: Shape, L: Emitter, B: Bsdf>(
+    fn sample<S: Shape, L: Emitter, M: Material>(
         &self,
-        scene: &Scene<'_, S, L, B>,
+        scene: &Scene<'_, S, L, M>,
         ray: &Ray,
         reach: f32,
         sequence: &mut impl Sequence,
     ) -> Rgb {
         let Some(hit) = scene.closest_hit(ray, reach) else {
-            return scene.environment().map_or(Rgb::BLACK, |(_, l)| l.radiance_escaping(ray.direction));
+            return scene.radiance_escaping(ray.direction);
         };
         let wo = -ray.direction;
         let emitted = scene.emitted(&hit, wo);
-        let Some(bsdf) = scene.bsdfs().get(hit.bsdf as usize) else { return emitted };
+        let Some(material) = scene.materials().get(hit.material as usize) else { return emitted };
+        let bsdf = material.at(|| scene.uv(&hit));
         if bsdf.is_black() {
             return emitted;
         }

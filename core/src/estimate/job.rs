@@ -1,10 +1,10 @@
 //! Rendering a part of a picture.
 
 use super::{DifferenceSums, Estimator, PixelStats};
-use crate::bsdf::Bsdf;
 use crate::camera::Camera;
 use crate::film::{Film, PixelRect};
 use crate::light::Emitter;
+use crate::material::Material;
 use crate::scene::Scene;
 use crate::sequence::{Dimension, Sequence};
 use crate::shape::Shape;
@@ -13,9 +13,9 @@ use core::ops::Range;
 /// Everything that a picture depends on, borrowed. What a pixel becomes depends on nothing else: not
 /// on the tiles, their order, or the threads that render them.
 #[derive(Debug)]
-pub struct Job<'a, S, L, B, E, Q> {
+pub struct Job<'a, S, L, M, E, Q> {
     /// The scene.
-    pub scene: Scene<'a, S, L, B>,
+    pub scene: Scene<'a, S, L, M>,
     /// What looks at it.
     pub camera: Camera,
     /// The raster.
@@ -26,7 +26,7 @@ pub struct Job<'a, S, L, B, E, Q> {
     pub sequence: Q,
 }
 
-impl<S: Shape, L: Emitter, B: Bsdf, E: Estimator, Q: Sequence + Clone> Job<'_, S, L, B, E, Q> {
+impl<S: Shape, L: Emitter, M: Material, E: Estimator, Q: Sequence + Clone> Job<'_, S, L, M, E, Q> {
     /// Adds the given samples to each pixel of a tile.
     ///
     /// * `tile` – the part of the film

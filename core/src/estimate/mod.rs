@@ -16,9 +16,9 @@ pub use occlusion::Occlusion;
 pub use stats::PixelStats;
 
 use crate::Rgb;
-use crate::bsdf::Bsdf;
 use crate::geom::Ray;
 use crate::light::Emitter;
+use crate::material::Material;
 use crate::scene::Scene;
 use crate::sequence::Sequence;
 use crate::shape::Shape;
@@ -28,9 +28,9 @@ pub trait Estimator {
     /// One sample of what arrives along `ray` from within `reach` (m).
     ///
     /// `sequence` has been turned to the sample; the camera has used its [`crate::sequence::Dimension::Film`].
-    fn sample<S: Shape, L: Emitter, B: Bsdf>(
+    fn sample<S: Shape, L: Emitter, M: Material>(
         &self,
-        scene: &Scene<'_, S, L, B>,
+        scene: &Scene<'_, S, L, M>,
         ray: &Ray,
         reach: f32,
         sequence: &mut impl Sequence,
@@ -48,9 +48,9 @@ pub enum AnyEstimator<'a> {
 
 impl Estimator for AnyEstimator<'_> {
     #[inline]
-    fn sample<S: Shape, L: Emitter, B: Bsdf>(
+    fn sample<S: Shape, L: Emitter, M: Material>(
         &self,
-        scene: &Scene<'_, S, L, B>,
+        scene: &Scene<'_, S, L, M>,
         ray: &Ray,
         reach: f32,
         sequence: &mut impl Sequence,

@@ -2,9 +2,9 @@
 
 use super::Estimator;
 use crate::Rgb;
-use crate::bsdf::Bsdf;
 use crate::geom::{Frame, Ray};
 use crate::light::Emitter;
+use crate::material::Material;
 use crate::scene::Scene;
 use crate::sequence::{Dimension, Sequence};
 use crate::shape::Shape;
@@ -29,9 +29,9 @@ impl Default for Occlusion {
 
 impl Estimator for Occlusion {
     #[inline]
-    fn sample<S: Shape, L: Emitter, B: Bsdf>(
+    fn sample<S: Shape, L: Emitter, M: Material>(
         &self,
-        scene: &Scene<'_, S, L, B>,
+        scene: &Scene<'_, S, L, M>,
         ray: &Ray,
         reach: f32,
         sequence: &mut impl Sequence,

@@ -11,7 +11,7 @@ use glam::Vec3;
 pub(super) struct Shading<'s, B> {
     pub(super) at: &'s Interaction,
     pub(super) receiver: Receiver,
-    bsdf: &'s B,
+    bsdf: B,
     frame: Frame,
     wo: Vec3,
     /// Geometric normal on the side that is looked at.
@@ -21,7 +21,7 @@ pub(super) struct Shading<'s, B> {
 impl<'s, B: Bsdf> Shading<'s, B> {
     /// * `wo` – unit direction to the viewer, world space
     #[inline]
-    pub(super) fn new(at: &'s Interaction, bsdf: &'s B, wo: Vec3) -> Self {
+    pub(super) fn new(at: &'s Interaction, bsdf: B, wo: Vec3) -> Self {
         let front = at.at.normal.dot(wo) >= 0.0;
         let side = if front { at.at.normal } else { -at.at.normal };
         // An interpolated normal that turns away from the viewer has nothing to say there.
@@ -34,7 +34,7 @@ impl<'s, B: Bsdf> Shading<'s, B> {
 
     #[inline]
     pub(super) fn bsdf(&self) -> &B {
-        self.bsdf
+        &self.bsdf
     }
 
     /// `f_r cos θ` toward the world direction `wi` and the density with which the BSDF draws it;

@@ -128,8 +128,8 @@ impl<S: SampledShape> Emitter for AreaLight<S> {
     }
 
     #[inline]
-    fn radiance(&self, normal: Vec3, wo: Vec3) -> Rgb {
-        if self.sides == Sides::Both || normal.dot(wo) > 0.0 { self.radiance } else { Rgb::BLACK }
+    fn radiance(&self, at: &SurfacePoint, wo: Vec3) -> Rgb {
+        if self.sides == Sides::Both || at.normal.dot(wo) > 0.0 { self.radiance } else { Rgb::BLACK }
     }
 
     /// `E = L` times the projected solid angle.

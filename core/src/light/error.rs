@@ -17,6 +17,24 @@ pub enum LightError {
         /// The emission.
         emission: Rgb,
     },
+    /// A map has another number of texels than its size says.
+    TexelCount {
+        /// Columns.
+        width: u32,
+        /// Rows.
+        height: u32,
+        /// How many there are.
+        texels: usize,
+    },
+    /// A texel of a map is negative, NaN or infinite.
+    Texel {
+        /// Its column.
+        x: u32,
+        /// Its row.
+        y: u32,
+        /// What it says.
+        radiance: Rgb,
+    },
     /// A direction has no length.
     NoDirection,
     /// The angles of a spot are not `0 ≤ beam ≤ cutoff ≤ π`, `cutoff > 0`.
@@ -35,6 +53,13 @@ impl fmt::Display for LightError {
             Self::NegativeEmission { emission: Rgb { r, g, b } } => {
                 write!(f, "the emission ({r}, {g}, {b}) is negative; channels must be 0 or more")
             }
+            Self::TexelCount { width, height, texels } => {
+                write!(f, "{texels} texels are not a picture of {width}×{height}")
+            }
+            Self::Texel { x, y, radiance: Rgb { r, g, b } } => write!(
+                f,
+                "the texel in column {x}, row {y} is ({r}, {g}, {b}); channels must be finite and 0 or more"
+            ),
             Self::NoDirection => write!(f, "the direction has no length"),
             Self::Angles { beam, cutoff } => write!(
                 f,

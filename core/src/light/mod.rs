@@ -10,6 +10,7 @@ mod cylinder;
 mod density;
 mod directional;
 mod disk;
+mod environment;
 mod error;
 mod point;
 mod polygon;
@@ -26,6 +27,7 @@ pub use area::{AreaLight, SampledShape, Sides};
 pub use constant::Constant;
 pub use density::SurfaceDensity;
 pub use directional::Directional;
+pub use environment::EnvironmentMap;
 pub use error::LightError;
 pub use point::Point;
 pub use polygon::PolygonSolidAngle;
@@ -99,10 +101,10 @@ pub trait Emitter: Copy {
         0.0
     }
 
-    /// Radiance that a surface point of the light with front normal `normal` sends toward the unit
-    /// direction `wo` (W m⁻² sr⁻¹).
-    fn radiance(&self, normal: Vec3, wo: Vec3) -> Rgb {
-        let _ = (normal, wo);
+    /// Radiance that a point of the light's surface sends toward the unit direction `wo`
+    /// (W m⁻² sr⁻¹).
+    fn radiance(&self, at: &SurfacePoint, wo: Vec3) -> Rgb {
+        let _ = (at, wo);
         Rgb::BLACK
     }
 
@@ -136,7 +138,7 @@ pub trait Emitter: Copy {
 
 /// Any of the lights: what a frontend that reads arbitrary scenes uses.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum AnyLight {
+pub enum AnyLight<'a> {
     /// A rectangle that emits.
     Rectangle(AreaLight<Rectangle>),
     /// A disk or ellipse that emits.
@@ -155,6 +157,8 @@ pub enum AnyLight {
     Directional(Directional),
     /// The same radiance from everywhere.
     Constant(Constant),
+    /// A picture of the radiance from everywhere.
+    EnvironmentMap(EnvironmentMap<'a>),
 }
 
 /// The only list of variants; every method goes through it.
@@ -170,14 +174,25 @@ macro_rules! each_light {
             AnyLight::Spot($inner) => $body,
             AnyLight::Directional($inner) => $body,
             AnyLight::Constant($inner) => $body,
+            AnyLight::EnvironmentMap($inner) => $body,
         }
     };
 }
 
-impl AnyLight {
+impl AnyLight<'_> {
     /// The kinds of light, by name.
-    pub const NAMES: [&'static str; 9] =
-        ["rectangle", "disk", "sphere", "triangle", "cylinder", "point", "spot", "directional", "constant"];
+    pub const NAMES: [&'static str; 10] = [
+        "rectangle",
+        "disk",
+        "sphere",
+        "triangle",
+        "cylinder",
+        "point",
+        "spot",
+        "directional",
+        "constant",
+        "envmap",
+    ];
 
     /// The name of this kind of light.
     #[must_use]
@@ -192,12 +207,13 @@ impl AnyLight {
             Self::Spot(_) => 6,
             Self::Directional(_) => 7,
             Self::Constant(_) => 8,
+            Self::EnvironmentMap(_) => 9,
         };
         Self::NAMES[index]
     }
 }
 
-impl Emitter for AnyLight {
+impl Emitter for AnyLight<'_> {
     #[inline]
     fn sample(&self, from: &Receiver, method: SurfaceDensity, u: [f32; 2]) -> Option<LightSample> {
         each_light!(self, l => l.sample(from, method, u))
@@ -214,8 +230,8 @@ impl Emitter for AnyLight {
     }
 
     #[inline]
-    fn radiance(&self, normal: Vec3, wo: Vec3) -> Rgb {
-        each_light!(self, l => l.radiance(normal, wo))
+    fn radiance(&self, at: &SurfacePoint, wo: Vec3) -> Rgb {
+        each_light!(self, l => l.radiance(at, wo))
     }
 
     #[inline]

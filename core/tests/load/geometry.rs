@@ -100,7 +100,7 @@ fn a_sheared_rectangle_becomes_two_triangles() {
     assert!(mesh.positions.contains(&Vec3::new(1.5, 1.0, 0.0)));
 }
 
-fn lights(body: &str) -> Vec<AnyLight> {
+fn lights(body: &str) -> Vec<AnyLight<'static>> {
     let description: Description = scene("lights", &format!("<shape type=\"disk\"/>{body}"));
     description.lights
 }

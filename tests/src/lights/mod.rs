@@ -116,7 +116,7 @@ impl<S: Specimen> Subject for Area<S> {
         let at = self.light.shape().surface_point(&ray, &hit);
         Some(Seen {
             pdf: self.light.pdf_solid_angle(&self.from, self.method, wi, &at),
-            radiance: self.light.radiance(at.normal, -wi).g,
+            radiance: self.light.radiance(&at, -wi).g,
             distance: hit.t,
             cos_light: -at.normal.dot(wi),
         })

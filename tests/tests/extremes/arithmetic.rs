@@ -137,7 +137,8 @@ fn row_59_subnormal_numbers_decide_nothing() -> Verdict {
     let mut random = Uniforms::new(155);
     let panel = Rectangle::new(Vec3::Y, Vec3::X * 0.5, Vec3::Z * 0.5).unwrap();
     let buffers = Stage::floor(1).lit(AnyShape::Rectangle(panel), 1.0).build();
-    let scene = buffers.scene();
+    let bound = buffers.bind();
+    let scene = bound.scene();
     for _ in 0..50_000 {
         let tiny = |random: &mut Uniforms| 1e-39 * random.between(-1.0, 1.0);
         let d = random.direction();

@@ -170,7 +170,8 @@ fn row_49_nothing_shadows_a_light_in_an_empty_scene() {
     for _ in 0..1_000 {
         let shape = random_shape(&mut random, 1.0, 0.5);
         let stage = Stage::empty().lit(shape, 1.0).build();
-        let scene = stage.scene();
+        let bound = stage.bind();
+        let scene = bound.scene();
         for i in 0..64 {
             let at = random.direction() * 10.0_f32.powf(random.between(0.6, 4.0));
             let from = halflight::light::Receiver { point: at, normal: -at.normalize() };

@@ -59,7 +59,7 @@ fn row_02_points_of_a_tiny_cone_are_on_the_sphere_and_seen() {
                 let off = (sample.at.point.as_dvec3().length() - 1.0).abs();
                 assert!(off <= 4.0 * f64::from(f32::EPSILON), "{method:?} at {distance}: {off:e} off");
                 assert!(
-                    stage.scene().light_visible(&eye, sample.wi, sample.distance, 0),
+                    stage.bind().scene().light_visible(&eye, sample.wi, sample.distance, 0),
                     "{sample:?} is hidden"
                 );
             }

@@ -92,7 +92,7 @@ impl Shot {
 pub(super) struct Author {
     materials: Vec<Material>,
     objects: Vec<Object>,
-    lights: Vec<AnyLight>,
+    lights: Vec<AnyLight<'static>>,
 }
 
 impl Author {
@@ -153,7 +153,7 @@ impl Author {
     }
 
     /// A light without a surface.
-    pub(super) fn light(&mut self, light: AnyLight) {
+    pub(super) fn light(&mut self, light: AnyLight<'static>) {
         self.lights.push(light);
     }
 
@@ -175,6 +175,7 @@ impl Author {
             materials: self.materials,
             objects: self.objects,
             lights: self.lights,
+            environments: Vec::new(),
         })
     }
 }

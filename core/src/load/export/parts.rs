@@ -212,7 +212,8 @@ pub(super) fn light(xml: &mut Xml, light: &AnyLight) -> Result<(), ExportError> 
         | AnyLight::Disk(_)
         | AnyLight::Sphere(_)
         | AnyLight::Triangle(_)
-        | AnyLight::Cylinder(_) => return Err(ExportError::SurfaceLight { kind: light.name() }),
+        | AnyLight::Cylinder(_)
+        | AnyLight::EnvironmentMap(_) => return Err(ExportError::SurfaceLight { kind: light.name() }),
         AnyLight::Point(l) => {
             xml.open_plugin("emitter", "point", None);
             coordinates(xml, "point", "position", l.position().as_dvec3());

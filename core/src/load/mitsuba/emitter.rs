@@ -26,7 +26,7 @@ pub(super) fn surface(context: &mut Context<'_>, element: &Element) -> Result<Em
 }
 
 /// A light without a surface.
-pub(super) fn free(context: &mut Context<'_>, element: &Element) -> Result<AnyLight, LoadError> {
+pub(super) fn free(context: &mut Context<'_>, element: &Element) -> Result<AnyLight<'static>, LoadError> {
     match element.attribute("type") {
         Some("area") => {
             let what = "an area emitter outside of a shape".to_owned();

@@ -33,7 +33,7 @@ struct Parts<'e> {
     environment: Option<&'e Element>,
     materials: Materials,
     objects: Vec<Object>,
-    lights: Vec<AnyLight>,
+    lights: Vec<AnyLight<'static>>,
 }
 
 /// The scene of a document.
@@ -144,6 +144,7 @@ impl<'e> Parts<'e> {
             materials: self.materials.list,
             objects: self.objects,
             lights: self.lights,
+            environments: Vec::new(),
         })
     }
 }

@@ -1,0 +1,222 @@
+//! The scene as the kernel sees it: borrowed slices, checked once.
+//!
+//! Generic over what it holds, so that a program whose scene has one kind of shape, light and BSDF
+//! links no other. [`AnyScene`] is the instance that holds everything.
+
+mod tables;
+
+pub use tables::{CornerNormals, CornerUvs, NONE, SceneError, Surface, Tables};
+
+use crate::Rgb;
+use crate::bsdf::{AnyBsdf, TwoSided};
+use crate::bvh::Bvh;
+use crate::geom::{PreparedRay, Ray, offset_origin};
+use crate::light::{AnyLight, Emitter};
+use crate::material::Material;
+use crate::shape::{AnyShape, Shape, ShapeHit, SurfacePoint};
+use glam::{Vec2, Vec3};
+
+/// How much of the way to a light a shadow ray is followed: a light's own surface, or a lamp's
+/// housing in the same plane, does not shadow it through rounding. A fraction, not a length.
+const SHADOW_REACH: f32 = 1.0 - 1e-4;
+
+/// A scene: its tree and its tables.
+#[derive(Debug)]
+pub struct Scene<'a, S, L, M> {
+    bvh: Bvh<'a>,
+    tables: Tables<'a, S, L, M>,
+    first_environment: usize,
+    has_delta_light: bool,
+    has_light_to_meet: bool,
+}
+
+// Not derived: a scene is copied as a view, whatever it is generic over.
+impl<S, L, M> Clone for Scene<'_, S, L, M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<S, L, M> Copy for Scene<'_, S, L, M> {}
+
+/// The scene that holds any shape, light and material.
+pub type AnyScene<'a> = Scene<'a, AnyShape, AnyLight<'a>, TwoSided<AnyBsdf>>;
+
+/// What a ray has met.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Interaction {
+    /// Place, error bound and geometric normal, on the front side.
+    pub at: SurfacePoint,
+    /// Shading normal, on the front side.
+    pub shading_normal: Vec3,
+    /// Distance along the ray (m).
+    pub distance: f32,
+    /// Index of the material.
+    pub material: u32,
+    /// Index of the light, or [`NONE`].
+    pub light: u32,
+    /// Index of the surface.
+    pub surface: u32,
+    /// Where on it, in the coordinates of [`ShapeHit`].
+    pub place: Vec2,
+}
+
+impl<'a, S: Shape, L: Emitter, M: Material> Scene<'a, S, L, M> {
+    /// Borrows the tables of a scene. Primitive `i` of the tree is `surfaces[i]`.
+    ///
+    /// # Errors
+    /// When a surface names a missing entry, or a light that surrounds the scene is not among the last.
+    /// That the tree fits the surfaces is [`Bvh::new`]'s business, to which their number has been told.
+    pub fn new(bvh: Bvh<'a>, tables: Tables<'a, S, L, M>) -> Result<Self, SceneError> {
+        tables.check_surfaces()?;
+        Ok(Self {
+            bvh,
+            tables,
+            first_environment: tables.first_environment()?,
+            has_delta_light: tables.lights.iter().any(L::is_delta),
+            has_light_to_meet: tables.lights.iter().any(|l| !l.is_delta()),
+        })
+    }
+
+    /// The tree.
+    #[must_use]
+    pub fn bvh(&self) -> &Bvh<'a> {
+        &self.bvh
+    }
+
+    /// The surfaces.
+    #[must_use]
+    pub fn surfaces(&self) -> &'a [Surface<S>] {
+        self.tables.surfaces
+    }
+
+    /// The lights.
+    #[must_use]
+    pub fn lights(&self) -> &'a [L] {
+        self.tables.lights
+    }
+
+    /// The materials.
+    #[must_use]
+    pub fn materials(&self) -> &'a [M] {
+        self.tables.materials
+    }
+
+    /// True when a light can only be sampled, because no ray meets it.
+    #[inline]
+    #[must_use]
+    pub fn has_delta_light(&self) -> bool {
+        self.has_delta_light
+    }
+
+    /// True when a ray can meet a light.
+    #[inline]
+    #[must_use]
+    pub fn has_light_to_meet(&self) -> bool {
+        self.has_light_to_meet
+    }
+
+    /// The lights that surround the scene, each with its index.
+    #[inline]
+    pub fn environments(&self) -> impl Iterator<Item = (usize, &'a L)> + use<'a, S, L, M> {
+        let first = self.first_environment;
+        self.tables.lights[first..].iter().enumerate().map(move |(i, light)| (first + i, light))
+    }
+
+    /// Radiance that arrives along `wi` from beyond all surfaces (W m⁻² sr⁻¹).
+    #[inline]
+    #[must_use]
+    pub fn radiance_escaping(&self, wi: Vec3) -> Rgb {
+        self.environments().fold(Rgb::BLACK, |sum, (_, light)| sum + light.radiance_escaping(wi))
+    }
+
+    /// The nearest surface within `reach` (m) along a ray with unit direction.
+    #[inline]
+    #[must_use]
+    pub fn closest_hit(&self, ray: &Ray, reach: f32) -> Option<Interaction> {
+        let prepared = PreparedRay::new(*ray);
+        let (index, hit) = self.bvh.closest_hit(&prepared, reach, |primitive, t_max| {
+            let hit = self.tables.surfaces.get(primitive as usize)?.shape.intersect(&prepared, t_max)?;
+            Some((hit.t, (primitive, hit)))
+        })?;
+        self.tables.surfaces.get(index as usize).map(|surface| self.interaction(index, surface, ray, &hit))
+    }
+
+    /// Everything about a hit.
+    #[inline]
+    fn interaction(&self, index: u32, surface: &Surface<S>, ray: &Ray, hit: &ShapeHit) -> Interaction {
+        let at = surface.shape.surface_point(ray, hit);
+        let shading_normal = match self.tables.normals.get(surface.normals as usize) {
+            Some(CornerNormals([a, b, c])) => {
+                let n = *a * (1.0 - hit.u - hit.v) + *b * hit.u + *c * hit.v;
+                crate::geom::unit(n).unwrap_or(at.normal)
+            }
+            None => at.normal,
+        };
+        Interaction {
+            at,
+            shading_normal,
+            distance: hit.t,
+            material: surface.material,
+            light: surface.light,
+            surface: index,
+            place: Vec2::new(hit.u, hit.v),
+        }
+    }
+
+    /// Texture coordinates of a hit: those between the corners of a triangle that has some, else the
+    /// shape's own.
+    #[inline]
+    #[must_use]
+    pub fn uv(&self, hit: &Interaction) -> Vec2 {
+        let uvs = self.tables.surfaces.get(hit.surface as usize).map_or(NONE, |s| s.uvs);
+        match self.tables.uvs.get(uvs as usize) {
+            Some(CornerUvs([a, b, c])) => {
+                *a * (1.0 - hit.place.x - hit.place.y) + *b * hit.place.x + *c * hit.place.y
+            }
+            None => hit.place,
+        }
+    }
+
+    /// True when nothing stands between a surface point and a light `distance` (m) away, or anything
+    /// at all when the distance is infinite.
+    #[inline]
+    #[must_use]
+    pub fn visible(&self, from: &SurfacePoint, wi: Vec3, distance: f32) -> bool {
+        self.unblocked(from, wi, distance, None)
+    }
+
+    /// True when nothing stands between a surface point and a point of the light with index `light`,
+    /// `distance` (m) away. The light's own surface is in the way only of its far side.
+    #[inline]
+    #[must_use]
+    pub fn light_visible(&self, from: &SurfacePoint, wi: Vec3, distance: f32, light: usize) -> bool {
+        self.unblocked(from, wi, distance, Some(light as u32))
+    }
+
+    #[inline]
+    fn unblocked(&self, from: &SurfacePoint, wi: Vec3, distance: f32, light: Option<u32>) -> bool {
+        let origin = offset_origin(from.point, from.error, from.normal, wi);
+        let prepared = PreparedRay::new(Ray::new(origin, wi));
+        let reach = distance * SHADOW_REACH;
+        !self.bvh.any_hit(&prepared, reach, |primitive| {
+            self.tables.surfaces.get(primitive as usize).is_some_and(|s| {
+                if Some(s.light) == light {
+                    s.shape.hides_itself(&prepared, reach)
+                } else {
+                    s.shape.intersect(&prepared, reach).is_some()
+                }
+            })
+        })
+    }
+
+    /// What leaves a surface point by its own light, toward the unit direction `wo` (W m⁻² sr⁻¹).
+    #[inline]
+    #[must_use]
+    pub fn emitted(&self, at: &Interaction, wo: Vec3) -> Rgb {
+        match self.tables.lights.get(at.light as usize) {
+            Some(light) => light.radiance(&at.at, wo),
+            None => Rgb::BLACK,
+        }
+    }
+}
