@@ -1,10 +1,10 @@
 //! The tables of a scene, owned.
 
 use super::primitives::{Primitive, list};
-use super::{BoundScene, BuildError, Description, EnvironmentDescription, build_tree};
+use super::{BoundScene, BuildError, Description, EnvironmentDescription, LightTreeBuffers, build_tree};
 use crate::bsdf::{AnyBsdf, TwoSided};
 use crate::bvh::Node;
-use crate::choose::PowerTable;
+use crate::choose::{LightTree, PowerTable};
 use crate::geom::Aabb;
 use crate::light::{AnyLight, Emitter};
 use crate::scene::{CornerNormals, NONE, Surface};
@@ -23,6 +23,7 @@ pub struct SceneBuffers {
     pub(super) environments: Vec<EnvironmentDescription>,
     pub(super) materials: Vec<TwoSided<AnyBsdf>>,
     power: Vec<f32>,
+    light_tree: LightTreeBuffers,
     degenerate: usize,
     stack: usize,
 }
@@ -68,11 +69,12 @@ impl SceneBuffers {
             environments: description.environments.clone(),
             materials: description.materials.iter().map(|m| m.bsdf).collect(),
             power: Vec::new(),
+            light_tree: LightTreeBuffers::default(),
             degenerate,
             stack: 0,
         };
         buffers.place(description, &primitives, &tree.order)?;
-        buffers.share_power(0.5 * bounds.diagonal())?;
+        buffers.prepare_choices(0.5 * bounds.diagonal())?;
         Ok(buffers)
     }
 
@@ -121,15 +123,19 @@ impl SceneBuffers {
         Ok(())
     }
 
-    /// Fills the table of cumulative powers; it stays empty where there is no power.
-    fn share_power(&mut self, scene_radius: f32) -> Result<(), BuildError> {
+    /// Fills the table of cumulative powers, which stays empty where there is no power, and builds the
+    /// tree of lights.
+    fn prepare_choices(&mut self, scene_radius: f32) -> Result<(), BuildError> {
         let bound = BoundScene::new(self)?;
         let lights = bound.scene().lights();
         let stack = bound.scene().bvh().stack_needed();
+        let light_tree = LightTreeBuffers::new(lights);
+        light_tree.tree()?;
         let mut table = vec![0.0; lights.len()];
         if PowerTable::fill(&mut table, |i| lights[i].power(scene_radius)) {
             self.power = table;
         }
+        self.light_tree = light_tree;
         self.stack = stack;
         Ok(())
     }
@@ -149,6 +155,15 @@ impl SceneBuffers {
         PowerTable::new(&self.power)
     }
 
+    /// The tree of the lights, for choosing among them.
+    ///
+    /// # Panics
+    /// Never: this very tree was checked when the buffers were made.
+    #[must_use]
+    pub fn light_tree(&self) -> LightTree<'_> {
+        self.light_tree.tree().expect("checked when the buffers were made")
+    }
+
     /// What the scene holds.
     #[must_use]
     pub fn stats(&self) -> SceneStats {
@@ -166,7 +181,8 @@ impl SceneBuffers {
                 + size_of_val(&*self.normals)
                 + size_of_val(&*self.lights)
                 + size_of_val(&*self.materials)
-                + size_of_val(&*self.power),
+                + size_of_val(&*self.power)
+                + self.light_tree.bytes(),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Why a scene could not be built.
 
 use crate::bvh::BvhError;
+use crate::choose::LightTreeError;
 use crate::light::LightError;
 use crate::scene::SceneError;
 use core::fmt;
@@ -33,6 +34,8 @@ pub enum BuildError {
     },
     /// The tree was refused.
     Bvh(BvhError),
+    /// The tree of the lights was refused.
+    LightTree(LightTreeError),
     /// The tables do not fit one another.
     Scene(SceneError),
 }
@@ -49,6 +52,7 @@ impl fmt::Display for BuildError {
                 "{object}: triangle {triangle} names a corner that the mesh does not have, or one without a normal"
             ),
             Self::Bvh(e) => write!(f, "the tree over the scene was refused: {e}"),
+            Self::LightTree(e) => write!(f, "the tree over the lights was refused: {e}"),
             Self::Scene(e) => write!(f, "the scene was refused: {e}"),
         }
     }
@@ -59,6 +63,12 @@ impl core::error::Error for BuildError {}
 impl From<BvhError> for BuildError {
     fn from(e: BvhError) -> Self {
         Self::Bvh(e)
+    }
+}
+
+impl From<LightTreeError> for BuildError {
+    fn from(e: LightTreeError) -> Self {
+        Self::LightTree(e)
     }
 }
 

@@ -4,6 +4,7 @@ mod bound;
 mod buffers;
 mod description;
 mod error;
+mod light_tree;
 mod primitives;
 mod tree;
 
@@ -14,4 +15,5 @@ pub use description::{
     IntegratorDescription, Material, Mesh, Object, ProjectionDescription,
 };
 pub use error::BuildError;
+pub use light_tree::LightTreeBuffers;
 pub use tree::{Tree, build_tree};

@@ -122,17 +122,17 @@ impl Direct<'_> {
         let lights = scene.lights().len();
         let draws = plan.light.max(1);
         let mut sum = Rgb::BLACK;
-        if self.choice == LightChoice::All {
-            for light in 0..lights {
-                for draw in 0..draws {
-                    let u = sequence.point(Dimension::Light(light as u32), draw, draws);
-                    sum += self.toward(scene, shading, plan, light, 1.0, u);
-                }
-            }
-        } else {
+        for light in self.choice.not_chosen(lights) {
             for draw in 0..draws {
-                let choice = sequence.choice(Dimension::Light(0), draw, draws);
-                if let Some((light, pmf)) = self.choice.choose(&shading.receiver, lights, choice) {
+                let u = sequence.point(Dimension::Light(light as u32), draw, draws);
+                sum += self.toward(scene, shading, plan, light, 1.0, u);
+            }
+        }
+        if self.choice != LightChoice::All {
+            for draw in 0..draws {
+                let u = sequence.choice(Dimension::Light(0), draw, draws);
+                let more = || sequence.choice(Dimension::Choice, draw, draws);
+                if let Some((light, pmf)) = self.choice.choose(&shading.receiver, lights, u, more) {
                     let u = sequence.point(Dimension::Light(0), draw, draws);
                     sum += self.toward(scene, shading, plan, light, pmf, u);
                 }

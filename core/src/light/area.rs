@@ -2,7 +2,10 @@
 
 use super::error::check_emission;
 use super::view::Keep;
-use super::{Density, Emitter, LightError, LightSample, Receiver, SurfaceDensity, SurfaceView, UseView};
+use super::{
+    Density, Emitter, LightBounds, LightError, LightSample, NormalCone, Receiver, SurfaceDensity,
+    SurfaceView, UseView,
+};
 use crate::Rgb;
 use crate::num::PI;
 use crate::shape::{Shape, SurfacePoint};
@@ -56,6 +59,11 @@ pub trait SampledShape: Shape {
         false
     }
 
+    /// The normals, and the largest area that the shape shows as a share of its surface.
+    fn normals(&self) -> (NormalCone, f32) {
+        (NormalCone::ALL, 0.25)
+    }
+
     /// Projected solid angle of what `from` sees of the emitting sides above its horizon (sr), that
     /// is the irradiance for a radiance of 1; `None` for a shape without a closed form.
     fn projected_solid_angle(&self, from: &Receiver, sides: Sides) -> Option<f32> {
@@ -94,6 +102,17 @@ impl<S: SampledShape> AreaLight<S> {
     #[must_use]
     pub fn shape(&self) -> &S {
         &self.shape
+    }
+
+    /// Which sides emit.
+    #[must_use]
+    pub const fn sides(&self) -> Sides {
+        self.sides
+    }
+
+    /// Radiance, as average over the channels (W m⁻² sr⁻¹).
+    pub(super) fn mean_radiance(&self) -> f32 {
+        self.radiance.average()
     }
 
     /// The density over what `from` sees of the light: for embedders that draw many samples at one
@@ -137,6 +156,10 @@ impl<S: SampledShape> Emitter for AreaLight<S> {
     fn unshadowed_irradiance(&self, from: &Receiver) -> Option<Rgb> {
         let irradiance = self.radiance * self.shape.projected_solid_angle(from, self.sides)?;
         irradiance.is_finite().then_some(irradiance)
+    }
+
+    fn bounds(&self) -> Option<LightBounds> {
+        Some(self.light_bounds())
     }
 
     /// `π A L`, twice when both sides emit.

@@ -1,8 +1,8 @@
 //! Sampling a disk or an ellipse.
 
 use super::{
-    AreaView, NoView, Receiver, SampledShape, Sides, SurfaceDensity, SurfaceSample, SurfaceView, UseView,
-    View,
+    AreaView, NoView, NormalCone, Receiver, SampledShape, Sides, SurfaceDensity, SurfaceSample, SurfaceView,
+    UseView, View,
 };
 use crate::geom::unit;
 use crate::irradiance;
@@ -237,6 +237,10 @@ impl SampledShape for Disk {
     fn sample_area(&self, u: [f32; 2]) -> SurfacePoint {
         let p = warp::square_to_disk(u);
         self.point(p.x, p.y)
+    }
+
+    fn normals(&self) -> (NormalCone, f32) {
+        (NormalCone::around(self.normal()), 1.0)
     }
 
     fn sample_area_inverse(&self, point: Vec3) -> [f32; 2] {

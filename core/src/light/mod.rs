@@ -5,6 +5,7 @@
 //! conformance suite.
 
 mod area;
+mod bounds;
 mod constant;
 mod cylinder;
 mod density;
@@ -24,6 +25,7 @@ mod triangle;
 mod view;
 
 pub use area::{AreaLight, SampledShape, Sides};
+pub use bounds::{LightBounds, NormalCone};
 pub use constant::Constant;
 pub use density::SurfaceDensity;
 pub use directional::Directional;
@@ -129,6 +131,12 @@ pub trait Emitter: Copy {
     /// True for a light that no ray meets by chance.
     fn is_delta(&self) -> bool {
         false
+    }
+
+    /// Where the light is and whither it shines; `None` for a light without a place, which a tree of
+    /// lights does not hold and every receiver samples.
+    fn bounds(&self) -> Option<LightBounds> {
+        None
     }
 
     /// Power into a scene that fits a sphere of `scene_radius` (m), as average over the channels (W).
@@ -251,6 +259,10 @@ impl Emitter for AnyLight<'_> {
     #[inline]
     fn is_delta(&self) -> bool {
         each_light!(self, l => l.is_delta())
+    }
+
+    fn bounds(&self) -> Option<LightBounds> {
+        each_light!(self, l => l.bounds())
     }
 
     fn power(&self, scene_radius: f32) -> f32 {

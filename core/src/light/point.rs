@@ -1,9 +1,10 @@
 //! Point lights.
 
+use super::bounds::positive;
 use super::error::check_emission;
-use super::{Density, Emitter, LightError, LightSample, Receiver, SurfaceDensity};
+use super::{Density, Emitter, LightBounds, LightError, LightSample, NormalCone, Receiver, SurfaceDensity};
 use crate::Rgb;
-use crate::geom::unit;
+use crate::geom::{Aabb, unit};
 use crate::num::PI;
 use glam::Vec3;
 
@@ -58,6 +59,16 @@ impl Emitter for Point {
 
     fn is_delta(&self) -> bool {
         true
+    }
+
+    fn bounds(&self) -> Option<LightBounds> {
+        Some(LightBounds {
+            region: Aabb::around(&[self.position]),
+            normals: NormalCone::ALL,
+            emission: 0.0,
+            two_sided: false,
+            intensity: positive(self.intensity.average(), 1.0),
+        })
     }
 
     /// `4π I`.

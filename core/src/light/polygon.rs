@@ -1,8 +1,8 @@
 //! Sampling a convex polygon: a triangle of its fan, then a place on that.
 
 use super::{
-    AreaView, FlatShape, ProjectedView, Receiver, SampledShape, Sides, SurfaceDensity, SurfaceSample,
-    SurfaceView, UseView, View, faces, flat_projected_solid_angle, is_near,
+    AreaView, FlatShape, NormalCone, ProjectedView, Receiver, SampledShape, Sides, SurfaceDensity,
+    SurfaceSample, SurfaceView, UseView, View, faces, flat_projected_solid_angle, is_near,
 };
 use crate::geom::Frame;
 use crate::num::{self, ONE_MINUS_EPSILON};
@@ -63,6 +63,10 @@ impl SampledShape for Polygon {
         let (i, first) = Shares::new(self, Triangle::area).choose(u[0]);
         let [b1, b2] = warp::square_to_triangle([first, u[1]]);
         self.place(i, b1, b2)
+    }
+
+    fn normals(&self) -> (NormalCone, f32) {
+        (NormalCone::around(self.normal()), 1.0)
     }
 
     fn sample_area_inverse(&self, point: Vec3) -> [f32; 2] {

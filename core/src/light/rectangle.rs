@@ -1,8 +1,8 @@
 //! Sampling a rectangle.
 
 use super::{
-    AreaView, FlatShape, ProjectedView, Receiver, SampledShape, Sides, SurfaceDensity, SurfaceSample,
-    SurfaceView, UseView, View, faces, flat_projected_solid_angle,
+    AreaView, FlatShape, NormalCone, ProjectedView, Receiver, SampledShape, Sides, SurfaceDensity,
+    SurfaceSample, SurfaceView, UseView, View, faces, flat_projected_solid_angle,
 };
 use crate::num::{self, ONE_MINUS_EPSILON};
 use crate::projected::Chart;
@@ -17,6 +17,10 @@ impl SampledShape for Rectangle {
     #[inline]
     fn sample_area(&self, u: [f32; 2]) -> SurfacePoint {
         self.point(2.0 * u[0] - 1.0, 2.0 * u[1] - 1.0)
+    }
+
+    fn normals(&self) -> (NormalCone, f32) {
+        (NormalCone::around(self.normal()), 1.0)
     }
 
     fn sample_area_inverse(&self, point: Vec3) -> [f32; 2] {

@@ -1,10 +1,11 @@
 //! Spot lights.
 
+use super::bounds::positive;
 use super::error::check_emission;
 use super::point::from_point;
-use super::{Emitter, LightError, LightSample, Receiver, SurfaceDensity};
+use super::{Emitter, LightBounds, LightError, LightSample, NormalCone, Receiver, SurfaceDensity};
 use crate::Rgb;
-use crate::geom::unit;
+use crate::geom::{Aabb, unit};
 use crate::num::{self, PI, TAU};
 use glam::Vec3;
 
@@ -96,6 +97,17 @@ impl Emitter for Spot {
 
     fn is_delta(&self) -> bool {
         true
+    }
+
+    /// The beam is the cone of normals: there the intensity is the largest.
+    fn bounds(&self) -> Option<LightBounds> {
+        Some(LightBounds {
+            region: Aabb::around(&[self.position]),
+            normals: NormalCone { axis: self.axis, angle: self.beam },
+            emission: self.cutoff - self.beam,
+            two_sided: false,
+            intensity: positive(self.intensity.average(), 1.0),
+        })
     }
 
     /// Solid angle of the beam and half of the edge's, times the intensity.

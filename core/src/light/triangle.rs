@@ -1,8 +1,8 @@
 //! Sampling a triangle.
 
 use super::{
-    AreaView, FlatShape, ProjectedView, Receiver, SampledShape, Sides, SurfaceDensity, SurfaceSample,
-    SurfaceView, UseView, View, faces, flat_projected_solid_angle, is_near,
+    AreaView, FlatShape, NormalCone, ProjectedView, Receiver, SampledShape, Sides, SurfaceDensity,
+    SurfaceSample, SurfaceView, UseView, View, faces, flat_projected_solid_angle, is_near,
 };
 use crate::projected::Chart;
 use crate::shape::{Shape, SurfacePoint, Triangle};
@@ -18,6 +18,10 @@ impl SampledShape for Triangle {
     fn sample_area(&self, u: [f32; 2]) -> SurfacePoint {
         let [b1, b2] = warp::square_to_triangle(u);
         self.point(b1, b2)
+    }
+
+    fn normals(&self) -> (NormalCone, f32) {
+        (NormalCone::around(self.normal()), 1.0)
     }
 
     fn sample_area_inverse(&self, point: Vec3) -> [f32; 2] {

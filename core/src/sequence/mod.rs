@@ -19,6 +19,8 @@ pub enum Dimension {
     /// A point of a light, and which light when one is chosen. With a shadow ray to every light,
     /// each light has its own.
     Light(u32),
+    /// Which light, where one uniform cannot tell all of them apart.
+    Choice,
     /// A direction from the BSDF, and which lobe.
     Bsdf,
     /// A direction for ambient occlusion.
@@ -34,6 +36,7 @@ impl Dimension {
             Self::Film => 0,
             Self::Bsdf => 1,
             Self::Occlusion => 2,
+            Self::Choice => u32::MAX,
             Self::Light(light) => 3_u32.wrapping_add(light),
         }
     }
