@@ -3,7 +3,6 @@
 use crate::choose::{DARK, EVERYWHERE, LightNode, LightTree, LightTreeError, MAX_DEPTH};
 use crate::geom::Aabb;
 use crate::light::{Emitter, LightBounds};
-use crate::num;
 use core::mem::size_of_val;
 use glam::Vec3;
 use std::vec;
@@ -30,7 +29,6 @@ pub struct LightTreeBuffers {
 #[derive(Clone, Copy)]
 struct Item {
     bounds: LightBounds,
-    centre: Vec3,
     light: u32,
 }
 
@@ -43,7 +41,7 @@ impl LightTreeBuffers {
         for (i, light) in lights.iter().enumerate() {
             match light.bounds() {
                 Some(bounds) if bounds.intensity > 0.0 => {
-                    items.push(Item { bounds, centre: bounds.region.centre(), light: i as u32 });
+                    items.push(Item { bounds, light: i as u32 });
                 }
                 Some(_) => {}
                 None => {
@@ -100,19 +98,20 @@ fn split(items: &mut [Item], depth: usize) -> usize {
     if items.len() == 2 {
         return half;
     }
-    let centres =
-        items.iter().fold(Aabb::EMPTY, |b, i| Aabb { min: b.min.min(i.centre), max: b.max.max(i.centre) });
+    let centres = items
+        .iter()
+        .fold(Aabb::EMPTY, |b, i| Aabb { min: b.min.min(i.bounds.centre), max: b.max.max(i.bounds.centre) });
     let cut = if depth < HALVED_FROM { best_cut(items, &centres) } else { None };
     let Some((axis, bin)) = cut else {
         let widest = centres.max - centres.min;
         let axis = (0..3).max_by(|&a, &b| widest[a].total_cmp(&widest[b])).unwrap_or(0);
-        items.select_nth_unstable_by(half, |a, b| a.centre[axis].total_cmp(&b.centre[axis]));
+        items.select_nth_unstable_by(half, |a, b| a.bounds.centre[axis].total_cmp(&b.bounds.centre[axis]));
         return half;
     };
     let bins = Bins::new(&centres, items.len(), axis);
     let (mut first, mut behind) = (0, items.len());
     while first < behind {
-        if bins.of(items[first].centre) <= bin {
+        if bins.of(items[first].bounds.centre) <= bin {
             first += 1;
         } else {
             behind -= 1;
@@ -149,7 +148,7 @@ impl Bins {
 #[derive(Clone, Copy)]
 struct Sums {
     region: Aabb,
-    /// Unit normals, shortened by the width of their cones.
+    /// Mean normals.
     normals: Vec3,
     intensity: f32,
     count: u32,
@@ -172,12 +171,8 @@ impl Sums {
     fn of(item: &Item) -> Self {
         let b = &item.bounds;
         // Which of the two sides is the front is the same to a light with two.
-        let axis = if b.two_sided && b.normals.axis.dot(Vec3::new(1.0, 0.6, 0.3)) < 0.0 {
-            -b.normals.axis
-        } else {
-            b.normals.axis
-        };
-        let normals = axis * (1.0 - b.normals.angle * num::FRAC_1_PI);
+        let turned = b.two_sided && b.normal.dot(Vec3::new(1.0, 0.6, 0.3)) < 0.0;
+        let normals = if turned { -b.normal } else { b.normal };
         Self { region: b.region, normals, intensity: b.intensity, count: 1 }
     }
 
@@ -206,7 +201,7 @@ fn best_cut(items: &[Item], centres: &Aabb) -> Option<(usize, usize)> {
         let bins = Bins::new(centres, items.len(), axis);
         let mut sums = [Sums::NONE; BINS];
         for item in items {
-            let sum = &mut sums[bins.of(item.centre)];
+            let sum = &mut sums[bins.of(item.bounds.centre)];
             *sum = sum.union(Sums::of(item));
         }
         // Long boxes are cut across.

@@ -3,8 +3,8 @@
 use super::error::check_emission;
 use super::view::Keep;
 use super::{
-    Density, Emitter, LightBounds, LightError, LightSample, NormalCone, Receiver, SurfaceDensity,
-    SurfaceView, UseView,
+    Cone, Density, Emitter, LightBounds, LightError, LightSample, Receiver, SurfaceDensity, SurfaceView,
+    UseView,
 };
 use crate::Rgb;
 use crate::num::PI;
@@ -59,9 +59,9 @@ pub trait SampledShape: Shape {
         false
     }
 
-    /// The normals, and the largest area that the shape shows as a share of its surface.
-    fn normals(&self) -> (NormalCone, f32) {
-        (NormalCone::ALL, 0.25)
+    /// A cone that holds all normals of the surface.
+    fn normals(&self) -> Cone {
+        Cone::ALL
     }
 
     /// Projected solid angle of what `from` sees of the emitting sides above its horizon (sr), that

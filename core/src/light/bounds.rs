@@ -3,27 +3,21 @@
 use super::AreaLight;
 use super::area::{SampledShape, Sides};
 use crate::geom::{Aabb, unit};
-use crate::num::{self, FRAC_PI_2, PI};
+use crate::num::{self, FRAC_PI_2, PI, larger};
 use glam::Vec3;
 
-/// Unit normals within an angle of an axis.
+/// The directions within an angle of an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct NormalCone {
+pub struct Cone {
     /// Unit vector in the middle.
     pub axis: Vec3,
     /// Largest angle to it (rad), in [0, π].
     pub angle: f32,
 }
 
-impl NormalCone {
+impl Cone {
     /// All directions.
     pub const ALL: Self = Self { axis: Vec3::Z, angle: PI };
-
-    /// One direction.
-    #[must_use]
-    pub const fn around(normal: Vec3) -> Self {
-        Self { axis: normal, angle: 0.0 }
-    }
 
     /// A cone that holds two cones, the smallest one but for rounding.
     ///
@@ -46,58 +40,106 @@ impl NormalCone {
     }
 }
 
-/// What bounds the light of one or several lights that have a place: none comes from outside of the
-/// box, and none leaves at more than [`LightBounds::emission`] from one of the normals.
+/// What is known of one or several lights that have a place. The box and the cone are bounds: no light
+/// comes from outside of the one, nor leaves outside of the other. The rest are means, weighted by
+/// intensity.
 ///
-/// Source: Conty Estevez, Kulla 2018, *Importance Sampling of Many Lights with Adaptive Tree Splitting*,
-/// Proc. ACM Comput. Graph. Interact. Tech. 1(2), section 4.1. Differs: lights are weighed by the
-/// intensity along their normal, which is what a receiver gets, and not by their power.
+/// Source: the bounds are those of Conty Estevez, Kulla 2018, *Importance Sampling of Many Lights with
+/// Adaptive Tree Splitting*, Proc. ACM Comput. Graph. Interact. Tech. 1(2), section 4.1. Differs: one cone
+/// of the directions of light, `θ_o + θ_e` wide, instead of one of normals and a width beyond it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LightBounds {
-    /// Box around the light (m).
+    /// Box around the lights (m).
     pub region: Aabb,
-    /// Its normals: the paper's axis and `θ_o`.
-    pub normals: NormalCone,
-    /// Largest angle between a normal and the light that leaves there (rad), in [0, π]: the paper's `θ_e`.
-    pub emission: f32,
-    /// True when light leaves also against the normals.
+    /// The directions in which light leaves.
+    pub directions: Cone,
+    /// True when it leaves in the opposite directions too.
     pub two_sided: bool,
-    /// Largest intensity, as average over the channels (W sr⁻¹); 0 for what is dark.
+    /// Power over π, that is the intensity of a Lambertian surface along its normal, as average over the
+    /// channels (W sr⁻¹); of one side where two emit. 0 for what is dark.
     pub intensity: f32,
+    /// Where the light is in the mean (m).
+    pub centre: Vec3,
+    /// Mean squared distance to there (m²).
+    pub variance: f32,
+    /// Mean of the unit normals: of length 1 where all agree, 0 for what shines alike all around.
+    pub normal: Vec3,
 }
 
 impl LightBounds {
-    /// What bounds the lights of both.
-    #[must_use]
-    pub fn union(self, other: Self) -> Self {
-        let two_sided = self.two_sided || other.two_sided;
-        let (a, mut b) = (self.normals, other.normals);
-        if two_sided && a.axis.dot(b.axis) < 0.0 {
-            b.axis = -b.axis;
+    /// A light at a point.
+    pub(super) fn at(position: Vec3, directions: Cone, normal: Vec3, intensity: f32) -> Self {
+        Self {
+            region: Aabb::around(&[position]),
+            directions,
+            two_sided: false,
+            intensity,
+            centre: position,
+            variance: 0.0,
+            normal,
         }
+    }
+
+    /// What is known of the lights of both.
+    #[must_use]
+    pub fn union(self, mut other: Self) -> Self {
+        let two_sided = self.two_sided || other.two_sided;
+        if two_sided && self.directions.axis.dot(other.directions.axis) < 0.0 {
+            other.directions.axis = -other.directions.axis;
+            other.normal = -other.normal;
+        }
+        // Halves, whose sum is finite.
+        let (a, b) = (0.5 * self.intensity, 0.5 * other.intensity);
+        let share = if a + b > 0.0 { b / (a + b) } else { 0.5 };
+        let apart = other.centre - self.centre;
+        let within = self.variance + (other.variance - self.variance) * share;
         Self {
             region: self.region.union(other.region),
-            normals: a.union(b),
-            emission: num::larger(self.emission, other.emission),
+            directions: self.directions.union(other.directions),
             two_sided,
             intensity: (self.intensity + other.intensity).min(f32::MAX),
+            centre: self.centre + apart * share,
+            variance: within + apart.length_squared() * (share * (1.0 - share)),
+            normal: self.normal + (other.normal - self.normal) * share,
         }
     }
 }
 
 impl<S: SampledShape> AreaLight<S> {
-    /// Its box, its normals and the intensity `L A'`, where `A'` is the largest area that the shape can
-    /// show.
+    /// Its box and its normals; `L A` as intensity.
     pub(super) fn light_bounds(&self) -> LightBounds {
-        let (normals, share) = self.shape().normals();
+        let (region, normals) = (self.shape().bounds(), self.shape().normals());
+        let flat = normals.angle < PI;
+        let diagonal = region.diagonal();
         LightBounds {
-            region: self.shape().bounds(),
-            normals,
-            emission: FRAC_PI_2,
-            two_sided: self.sides() == Sides::Both,
-            intensity: positive(self.mean_radiance(), self.shape().area() * share),
+            region,
+            directions: Cone { angle: (normals.angle + FRAC_PI_2).min(PI), ..normals },
+            two_sided: flat && self.sides() == Sides::Both,
+            intensity: positive(self.mean_radiance(), self.shape().area()),
+            centre: region.centre(),
+            // Of a rectangle in its plane.
+            variance: diagonal * diagonal * (1.0 / 12.0),
+            normal: if flat { normals.axis } else { Vec3::ZERO },
         }
     }
+}
+
+/// Expected `max(cos θ, 0)` between a direction and unit vectors with a given mean.
+///
+/// * `length` – of their mean, in [0, 1]
+/// * `cos` – of the mean, not normalised, with the direction
+///
+/// Derived: `max(x, 0) = (x + |x|) / 2`, and `|x|` is about the root of `x² + v / 4` where `v` is how much
+/// the vectors differ: exact for one direction, and 1/4 for all of them.
+#[inline]
+pub(crate) fn expected_cosine(cos: f32, length: f32) -> f32 {
+    0.5 * (cos + expected_absolute_cosine(cos, length))
+}
+
+/// Expected `|cos θ|`, likewise.
+#[inline]
+pub(crate) fn expected_absolute_cosine(cos: f32, length: f32) -> f32 {
+    num::sqrt(cos * cos + 0.25 * larger(1.0 - length * length, 0.0))
 }
 
 /// The product of two positive numbers, kept in the range of `f32`: 0 only when the first is.
@@ -127,7 +169,7 @@ mod tests {
         for i in 0..20_000 {
             let cone = |j: u32| {
                 let angle = [0.0, 1e-3, 0.3, 1.5, 3.0][(num::hash(i + j) % 5) as usize];
-                NormalCone { axis: direction(5 * i + j), angle }
+                Cone { axis: direction(5 * i + j), angle }
             };
             let (a, b) = (cone(0), cone(1));
             let both = a.union(b);
@@ -142,17 +184,34 @@ mod tests {
         }
     }
 
+    fn flat(position: Vec3, normal: Vec3, two_sided: bool, intensity: f32) -> LightBounds {
+        let directions = Cone { axis: normal, angle: FRAC_PI_2 };
+        LightBounds { two_sided, ..LightBounds::at(position, directions, normal, intensity) }
+    }
+
     #[test]
     fn opposite_normals_are_all_directions_unless_both_sides_emit() {
-        let light = |axis, two_sided| LightBounds {
-            region: Aabb::around(&[Vec3::ZERO]),
-            normals: NormalCone::around(axis),
-            emission: FRAC_PI_2,
-            two_sided,
-            intensity: 1.0,
-        };
-        assert_eq!(light(Vec3::Y, false).union(light(Vec3::NEG_Y, false)).normals, NormalCone::ALL);
+        let light = |normal, two_sided| flat(Vec3::ZERO, normal, two_sided, 1.0);
+        let one = light(Vec3::Y, false).union(light(Vec3::NEG_Y, false));
+        assert_eq!((one.directions, one.normal), (Cone::ALL, Vec3::ZERO));
         let both = light(Vec3::Y, true).union(light(Vec3::NEG_Y, false));
-        assert_eq!((both.normals, both.two_sided), (NormalCone::around(Vec3::Y), true));
+        assert_eq!((both.directions.angle, both.normal, both.two_sided), (FRAC_PI_2, Vec3::Y, true));
+    }
+
+    #[test]
+    fn means_are_those_of_all_lights_together() {
+        let lights: std::vec::Vec<_> = (0..100)
+            .map(|i| flat(direction(i) * 3.0, direction(200 + i), false, 0.1 + random(500 + i)))
+            .collect();
+        let all = lights[1..].iter().fold(lights[0], |a, b| a.union(*b));
+        let total: f32 = lights.iter().map(|l| l.intensity).sum();
+        let mean = |f: &dyn Fn(&LightBounds) -> Vec3| {
+            lights.iter().fold(Vec3::ZERO, |sum, l| sum + f(l) * l.intensity) / total
+        };
+        let centre = mean(&|l| l.centre);
+        let squares = mean(&|l| Vec3::splat((l.centre - centre).length_squared())).x;
+        assert!((all.intensity / total - 1.0).abs() < 1e-5);
+        assert!((all.centre - centre).length() < 1e-5 && (all.normal - mean(&|l| l.normal)).length() < 1e-5);
+        assert!((all.variance / squares - 1.0).abs() < 1e-4, "{} {squares}", all.variance);
     }
 }

@@ -1,8 +1,8 @@
 //! Sampling an open cylinder.
 
 use super::{
-    AreaView, NoView, NormalCone, Receiver, SampledShape, Sides, SurfaceDensity, SurfaceSample, SurfaceView,
-    UseView, View,
+    AreaView, NoView, Receiver, SampledShape, Sides, SurfaceDensity, SurfaceSample, SurfaceView, UseView,
+    View,
 };
 use crate::geom::{Frame, unit};
 use crate::num::{self, TAU};
@@ -203,11 +203,6 @@ impl SampledShape for Cylinder {
         let frame = Frame::from_normal(self.unit_axis());
         let (sin, cos) = num::sin_cos(TAU * u[1]);
         self.point(u[0], frame.s * cos + frame.t * sin)
-    }
-
-    /// Seen from the side, a rectangle of width `2 r`.
-    fn normals(&self) -> (NormalCone, f32) {
-        (NormalCone::ALL, num::FRAC_1_PI)
     }
 
     fn sample_area_inverse(&self, point: Vec3) -> [f32; 2] {

@@ -1,7 +1,7 @@
 //! Sampling a disk or an ellipse.
 
 use super::{
-    AreaView, NoView, NormalCone, Receiver, SampledShape, Sides, SurfaceDensity, SurfaceSample, SurfaceView,
+    AreaView, Cone, NoView, Receiver, SampledShape, Sides, SurfaceDensity, SurfaceSample, SurfaceView,
     UseView, View,
 };
 use crate::geom::unit;
@@ -239,8 +239,8 @@ impl SampledShape for Disk {
         self.point(p.x, p.y)
     }
 
-    fn normals(&self) -> (NormalCone, f32) {
-        (NormalCone::around(self.normal()), 1.0)
+    fn normals(&self) -> Cone {
+        Cone { axis: self.normal(), angle: 0.0 }
     }
 
     fn sample_area_inverse(&self, point: Vec3) -> [f32; 2] {

@@ -25,7 +25,8 @@ mod triangle;
 mod view;
 
 pub use area::{AreaLight, SampledShape, Sides};
-pub use bounds::{LightBounds, NormalCone};
+pub use bounds::{Cone, LightBounds};
+pub(crate) use bounds::{expected_absolute_cosine, expected_cosine};
 pub use constant::Constant;
 pub use density::SurfaceDensity;
 pub use directional::Directional;

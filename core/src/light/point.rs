@@ -2,9 +2,9 @@
 
 use super::bounds::positive;
 use super::error::check_emission;
-use super::{Density, Emitter, LightBounds, LightError, LightSample, NormalCone, Receiver, SurfaceDensity};
+use super::{Cone, Density, Emitter, LightBounds, LightError, LightSample, Receiver, SurfaceDensity};
 use crate::Rgb;
-use crate::geom::{Aabb, unit};
+use crate::geom::unit;
 use crate::num::PI;
 use glam::Vec3;
 
@@ -62,13 +62,8 @@ impl Emitter for Point {
     }
 
     fn bounds(&self) -> Option<LightBounds> {
-        Some(LightBounds {
-            region: Aabb::around(&[self.position]),
-            normals: NormalCone::ALL,
-            emission: 0.0,
-            two_sided: false,
-            intensity: positive(self.intensity.average(), 1.0),
-        })
+        let intensity = positive(self.intensity.average(), 4.0);
+        Some(LightBounds::at(self.position, Cone::ALL, Vec3::ZERO, intensity))
     }
 
     /// `4π I`.

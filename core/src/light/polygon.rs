@@ -1,8 +1,8 @@
 //! Sampling a convex polygon: a triangle of its fan, then a place on that.
 
 use super::{
-    AreaView, FlatShape, NormalCone, ProjectedView, Receiver, SampledShape, Sides, SurfaceDensity,
-    SurfaceSample, SurfaceView, UseView, View, faces, flat_projected_solid_angle, is_near,
+    AreaView, Cone, FlatShape, ProjectedView, Receiver, SampledShape, Sides, SurfaceDensity, SurfaceSample,
+    SurfaceView, UseView, View, faces, flat_projected_solid_angle, is_near,
 };
 use crate::geom::Frame;
 use crate::num::{self, ONE_MINUS_EPSILON};
@@ -65,8 +65,8 @@ impl SampledShape for Polygon {
         self.place(i, b1, b2)
     }
 
-    fn normals(&self) -> (NormalCone, f32) {
-        (NormalCone::around(self.normal()), 1.0)
+    fn normals(&self) -> Cone {
+        Cone { axis: self.normal(), angle: 0.0 }
     }
 
     fn sample_area_inverse(&self, point: Vec3) -> [f32; 2] {

@@ -1,8 +1,8 @@
 //! Sampling a rectangle.
 
 use super::{
-    AreaView, FlatShape, NormalCone, ProjectedView, Receiver, SampledShape, Sides, SurfaceDensity,
-    SurfaceSample, SurfaceView, UseView, View, faces, flat_projected_solid_angle,
+    AreaView, Cone, FlatShape, ProjectedView, Receiver, SampledShape, Sides, SurfaceDensity, SurfaceSample,
+    SurfaceView, UseView, View, faces, flat_projected_solid_angle,
 };
 use crate::num::{self, ONE_MINUS_EPSILON};
 use crate::projected::Chart;
@@ -19,8 +19,8 @@ impl SampledShape for Rectangle {
         self.point(2.0 * u[0] - 1.0, 2.0 * u[1] - 1.0)
     }
 
-    fn normals(&self) -> (NormalCone, f32) {
-        (NormalCone::around(self.normal()), 1.0)
+    fn normals(&self) -> Cone {
+        Cone { axis: self.normal(), angle: 0.0 }
     }
 
     fn sample_area_inverse(&self, point: Vec3) -> [f32; 2] {

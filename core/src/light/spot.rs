@@ -1,11 +1,11 @@
 //! Spot lights.
 
-use super::bounds::positive;
+use super::bounds::{expected_cosine, positive};
 use super::error::check_emission;
 use super::point::from_point;
-use super::{Emitter, LightBounds, LightError, LightSample, NormalCone, Receiver, SurfaceDensity};
+use super::{Cone, Emitter, LightBounds, LightError, LightSample, Receiver, SurfaceDensity};
 use crate::Rgb;
-use crate::geom::{Aabb, unit};
+use crate::geom::unit;
 use crate::num::{self, PI, TAU};
 use glam::Vec3;
 
@@ -99,15 +99,14 @@ impl Emitter for Spot {
         true
     }
 
-    /// The beam is the cone of normals: there the intensity is the largest.
+    /// As seen from within the beam; a beam all around is a point light.
     fn bounds(&self) -> Option<LightBounds> {
-        Some(LightBounds {
-            region: Aabb::around(&[self.position]),
-            normals: NormalCone { axis: self.axis, angle: self.beam },
-            emission: self.cutoff - self.beam,
-            two_sided: false,
-            intensity: positive(self.intensity.average(), 1.0),
-        })
+        let directions = Cone { axis: self.axis, angle: self.cutoff };
+        // The mean of the beam's directions; on the axis they count as much as `expected_cosine` says.
+        let (_, cos) = num::sin_cos(self.beam);
+        let along = 0.5 + 0.5 * cos;
+        let intensity = positive(self.intensity.average(), 1.0 / expected_cosine(along, along));
+        Some(LightBounds::at(self.position, directions, self.axis * along, intensity))
     }
 
     /// Solid angle of the beam and half of the edge's, times the intensity.

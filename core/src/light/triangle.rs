@@ -1,8 +1,8 @@
 //! Sampling a triangle.
 
 use super::{
-    AreaView, FlatShape, NormalCone, ProjectedView, Receiver, SampledShape, Sides, SurfaceDensity,
-    SurfaceSample, SurfaceView, UseView, View, faces, flat_projected_solid_angle, is_near,
+    AreaView, Cone, FlatShape, ProjectedView, Receiver, SampledShape, Sides, SurfaceDensity, SurfaceSample,
+    SurfaceView, UseView, View, faces, flat_projected_solid_angle, is_near,
 };
 use crate::projected::Chart;
 use crate::shape::{Shape, SurfacePoint, Triangle};
@@ -20,8 +20,8 @@ impl SampledShape for Triangle {
         self.point(b1, b2)
     }
 
-    fn normals(&self) -> (NormalCone, f32) {
-        (NormalCone::around(self.normal()), 1.0)
+    fn normals(&self) -> Cone {
+        Cone { axis: self.normal(), angle: 0.0 }
     }
 
     fn sample_area_inverse(&self, point: Vec3) -> [f32; 2] {
