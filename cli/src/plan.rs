@@ -9,7 +9,7 @@ use halflight::light::{AnyLight, Emitter, SurfaceDensity};
 use halflight::sequence::{AnySequence, Random, Sobol};
 use std::fmt;
 
-/// With `auto`, up to so many lights are all sampled at each point; of more, one is chosen by power.
+/// With `auto`, up to so many lights are all sampled at each point; of more, one is chosen by a tree.
 const FEW_LIGHTS: usize = 4;
 
 /// Which light a sample goes to.
@@ -18,6 +18,7 @@ pub(crate) enum Choice {
     All,
     Uniform,
     Power,
+    Tree,
 }
 
 /// Every choice made.
@@ -129,8 +130,9 @@ fn choice(asked: Choose, lights: usize) -> Choice {
         Choose::All => Choice::All,
         Choose::Uniform => Choice::Uniform,
         Choose::Power => Choice::Power,
+        Choose::Tree => Choice::Tree,
         Choose::Auto if lights <= FEW_LIGHTS => Choice::All,
-        Choose::Auto => Choice::Power,
+        Choose::Auto => Choice::Tree,
     }
 }
 
@@ -154,6 +156,7 @@ impl Plan {
             Self::Direct { technique, light_samples, bsdf_samples, surface, choice, .. } => {
                 let choice = match (choice, buffers.power_table()) {
                     (Choice::Power, Some(table)) => LightChoice::Power(table),
+                    (Choice::Tree, _) => LightChoice::Tree(buffers.light_tree()),
                     (Choice::All, _) => LightChoice::All,
                     _ => LightChoice::Uniform,
                 };
@@ -233,6 +236,7 @@ impl fmt::Display for Choice {
             Self::All => "all",
             Self::Uniform => "uniform",
             Self::Power => "power",
+            Self::Tree => "tree",
         })
     }
 }

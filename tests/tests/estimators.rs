@@ -77,9 +77,10 @@ fn every_choice_agrees(stage: &Stage) -> Verdict {
         techniques.chain(heuristics.map(Technique::Mis)).chain([Technique::Auto(Heuristic::Balance)])
     {
         for surface in SURFACES {
-            for choice in [Some(LightChoice::All), Some(LightChoice::Uniform), table.map(LightChoice::Power)]
-            {
-                let Some(choice) = choice else { continue };
+            let mut choices =
+                vec![LightChoice::All, LightChoice::Uniform, LightChoice::Tree(buffers.light_tree())];
+            choices.extend(table.map(LightChoice::Power));
+            for choice in choices {
                 let direct = Direct { technique, surface, choice, ..Direct::default() };
                 let what = format!("{technique:?} {surface:?} {choice:?}");
                 let moments = seen_at_origin(&buffers, &direct, eye, SAMPLES);

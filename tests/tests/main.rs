@@ -2,6 +2,7 @@
 
 mod bsdfs;
 mod bvh;
+mod choosing;
 mod closed_forms;
 mod control_variates;
 mod delta;

@@ -163,6 +163,8 @@ pub(crate) enum Choose {
     Uniform,
     /// One, by its power
     Power,
+    /// One, by what it is expected to send to the point: a tree of the lights
+    Tree,
 }
 
 /// Where the uniform numbers come from.

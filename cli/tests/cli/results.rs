@@ -64,6 +64,7 @@ fn every_choice_renders() {
         "--choose all",
         "--choose uniform",
         "--choose power",
+        "--choose tree",
         "--sequence random",
     ] {
         let render = json(&folder, &format!("render scene.xml -o out.hdr --json {choice}"));

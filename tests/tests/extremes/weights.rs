@@ -2,11 +2,12 @@
 
 use super::METHODS;
 use halflight::Rgb;
+use halflight::build::LightTreeBuffers;
 use halflight::choose::{LightChoice, PowerTable};
 use halflight::estimate::{Direct, Heuristic, Technique};
 use halflight::geom::Ray;
 use halflight::glam::Vec3;
-use halflight::light::{AnyLight, Constant, Emitter, Receiver};
+use halflight::light::{AnyLight, Constant, Emitter, Point, Receiver};
 use halflight::num::{ONE_MINUS_EPSILON, unit_f32};
 use halflight::sequence::{Dimension, Random, Sequence, Sobol};
 use halflight::shape::{AnyShape, Cylinder, Disk, Rectangle, Sphere, SurfacePoint, Triangle};
@@ -65,7 +66,8 @@ fn row_23_many_parts_of_a_light_are_the_light() -> Verdict {
     let (parts, eye) = (parts.build(), Vec3::new(0.4, 0.8, 1.0));
     let reference = seen_at_origin(&whole, &Direct::default(), eye, 4 * SAMPLES);
     let power = parts.power_table().map(LightChoice::Power);
-    for choice in [Some(LightChoice::Uniform), power].into_iter().flatten() {
+    let tree = LightChoice::Tree(parts.light_tree());
+    for choice in [Some(LightChoice::Uniform), power, Some(tree)].into_iter().flatten() {
         for technique in
             [Technique::Light, Technique::Mis(Heuristic::Balance), Technique::Mis(Heuristic::Power)]
         {
@@ -95,12 +97,15 @@ fn row_24_every_light_that_emits_can_be_chosen() -> Verdict {
         .with(panel(Vec3::Y * 2.0, 15.0), 0)
         .lit(panel(Vec3::Y * 3.0, 2.0), 10.0)
         .build();
-    let choice = buffers.power_table().map(LightChoice::Power).expect("light");
+    let power = buffers.power_table().map(LightChoice::Power).expect("light");
     let eye = Vec3::new(0.4, 0.8, 1.0);
     let all = seen_at_origin(&buffers, &Direct::default(), eye, SAMPLES);
     ensure!(all.mean() > 0.0, "the candle is dark");
-    let chosen = Direct { choice, ..Direct::default() };
-    seen_at_origin(&buffers, &chosen, eye, 1 << 20).check_same("one candle", &all, 1e-5)
+    for choice in [power, LightChoice::Tree(buffers.light_tree())] {
+        let chosen = Direct { choice, ..Direct::default() };
+        seen_at_origin(&buffers, &chosen, eye, 1 << 20).check_same("one candle", &all, 1e-5)?;
+    }
+    Ok(())
 }
 
 /// Metres compared with square metres: the choice of light changes with the unit of the scene.
@@ -112,11 +117,18 @@ fn row_25_the_choice_of_light_does_not_know_the_unit() {
             .lit(AnyShape::Sphere(Sphere::new(Vec3::X * k, 0.3 * k).unwrap()), 1.0)
             .lit(AnyShape::Disk(Disk::new(Vec3::Y * (2.0 * k), Vec3::X * k, Vec3::Z * k).unwrap()), 0.1)
             .build();
-        let table = buffers.power_table().expect("light");
-        [0, 1, 2].map(|i| table.pmf(i))
+        let (table, tree) = (buffers.power_table().expect("light"), buffers.light_tree());
+        let from = Receiver { point: Vec3::splat(0.1 * k), normal: Vec3::Y };
+        ([0, 1, 2].map(|i| table.pmf(i)), [0, 1, 2].map(|i| tree.pmf(&from, i)))
     };
+    let (by_power, by_tree) = shares(1.0);
+    // The nodes of a tree keep 8 bits of an intensity.
     for k in [1e-3, 0.1, 10.0, 1e3] {
-        for (share, unscaled) in shares(k).into_iter().zip(shares(1.0)) {
+        let (power, tree) = shares(k);
+        for (share, unscaled) in tree.into_iter().zip(by_tree) {
+            assert!((share / unscaled - 1.0).abs() < 0.02, "{share} times {k}, {unscaled} otherwise");
+        }
+        for (share, unscaled) in power.into_iter().zip(by_power) {
             assert!((share / unscaled - 1.0).abs() < 1e-5, "{share} times {k}, {unscaled} otherwise");
         }
     }
@@ -126,6 +138,15 @@ fn row_25_the_choice_of_light_does_not_know_the_unit() {
 #[test]
 fn row_26_no_uniform_is_one() {
     assert_eq!((unit_f32(u32::MAX), unit_f32(0)), (ONE_MINUS_EPSILON, 0.0));
+    // Nor what is left of one on the way through a tree.
+    let lamp = |x: u8| AnyLight::Point(Point::new(Vec3::Y * f32::from(x), Rgb::WHITE).unwrap());
+    let buffers = LightTreeBuffers::new(&(1..=200).map(lamp).collect::<Vec<_>>());
+    let (tree, from) = (buffers.tree().unwrap(), Receiver { point: Vec3::ZERO, normal: Vec3::Y });
+    for u in [0.0, f32::MIN_POSITIVE, 0.5, ONE_MINUS_EPSILON] {
+        assert!(
+            tree.choose(&from, u, || ONE_MINUS_EPSILON).is_some_and(|(light, pmf)| light < 200 && pmf > 0.0)
+        );
+    }
     // All that the upper 24 bits can be.
     assert!((0..1_u32 << 24).all(|bits| (0.0..1.0).contains(&unit_f32(bits << 8 | 0xff))));
     let mut sequences = (Sobol::new(3), Random::<rand_pcg::Pcg32>::new(3));
@@ -144,6 +165,12 @@ fn row_26_no_uniform_is_one() {
 #[test]
 fn row_27_tables_add_up_and_never_draw_a_weight_of_zero() {
     assert!(!PowerTable::fill(&mut [0.0; 3], |_| 0.0));
+    let dark = AnyLight::Point(Point::new(Vec3::Y, Rgb::BLACK).unwrap());
+    let lamp = AnyLight::Point(Point::new(Vec3::Y, Rgb::splat(1e-30)).unwrap());
+    let buffers = LightTreeBuffers::new(&[dark, lamp, dark]);
+    let (tree, from) = (buffers.tree().unwrap(), Receiver { point: Vec3::ZERO, normal: Vec3::Y });
+    assert_eq!([0, 1, 2].map(|i| tree.pmf(&from, i)), [0.0, 1.0, 0.0]);
+    assert_eq!(LightTreeBuffers::new(&[dark]).tree().unwrap().choose(&from, 0.5, || 0.5), None);
     // Thirds, and sums that round, with nothing at both ends and between.
     for count in [5_usize, 100, 4097] {
         let power = |i: usize| if i.is_multiple_of(2) { 0.0 } else { 1.0 + (i % 7) as f32 / 3.0 };
