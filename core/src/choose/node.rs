@@ -166,3 +166,30 @@ fn from_octahedron(axis: [i16; 2]) -> Vec3 {
     let n = Vec3::new(x - under.copysign(x), y - under.copysign(y), z);
     unit(n).unwrap_or(Vec3::Z)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::warp;
+
+    #[test]
+    fn axes_keep_their_direction() {
+        for i in 0..100_000 {
+            let u = [num::unit_f32(num::hash(i)), num::unit_f32(num::hash2(i, 1))];
+            let n = warp::uniform_sphere(u);
+            assert!((from_octahedron(to_octahedron(n)) - n).length() < 1e-4, "{n}");
+        }
+        for n in [Vec3::X, Vec3::Y, Vec3::Z, Vec3::NEG_X, Vec3::NEG_Y, Vec3::NEG_Z] {
+            assert_eq!(from_octahedron(to_octahedron(n)), n);
+        }
+    }
+
+    #[test]
+    fn halves_are_never_smaller_and_always_finite() {
+        for x in [0.0, 1e-45, 1e-30, 0.1, 1.0, 1.001, 3e38, f32::MAX, f32::INFINITY, f32::NAN] {
+            let half = from_upper_half(upper_half(x));
+            assert!(half >= x.min(3.3e38) && half.is_finite(), "{x:e} {half:e}");
+            assert!(!(x > 1e-30) || half <= 1.008 * x, "{x:e} {half:e}");
+        }
+    }
+}

@@ -263,3 +263,75 @@ impl fmt::Display for LightTreeError {
 }
 
 impl core::error::Error for LightTreeError {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::light::{Emitter, Point};
+    use crate::{Rgb, num};
+    use glam::Vec3;
+    use std::vec;
+    use std::vec::Vec;
+
+    fn node(link: u32) -> LightNode {
+        let light = Point::new(Vec3::X * num::unit_f32(num::hash(link)), Rgb::WHITE).unwrap();
+        LightNode::new(&light.bounds().unwrap(), link)
+    }
+
+    /// A tree in which every first child is a leaf, or every second one.
+    fn chain(leaves: u32, first: bool) -> (Vec<LightNode>, Vec<u32>) {
+        let (mut nodes, mut places) = (Vec::new(), vec![0; leaves as usize]);
+        let mut leaf = |nodes: &mut Vec<LightNode>, light: u32| {
+            places[light as usize] = nodes.len() as u32;
+            nodes.push(node(light));
+        };
+        for light in 0..leaves - 1 {
+            let index = nodes.len() as u32;
+            // As many nodes as are left below.
+            nodes.push(node(if first { index + 2 } else { 2 * (leaves - 1 - light) + index }));
+            if first {
+                leaf(&mut nodes, light);
+            }
+        }
+        leaf(&mut nodes, leaves - 1);
+        if !first {
+            (0..leaves - 1).rev().for_each(|light| leaf(&mut nodes, light));
+        }
+        (nodes, places)
+    }
+
+    #[test]
+    fn chains_are_trees_until_they_are_too_deep() {
+        for first in [true, false] {
+            let (nodes, leaves) = chain(MAX_DEPTH as u32 + 1, first);
+            let tree = LightTree::new(&nodes, &leaves, &[]).unwrap();
+            let from = Receiver { point: Vec3::Y, normal: Vec3::NEG_Y };
+            for i in 0..1000 {
+                let (light, pmf) = tree.choose(&from, i as f32 / 1000.0, || 0.5).unwrap();
+                assert!(pmf > 0.0 && pmf == tree.pmf(&from, light));
+            }
+            let (nodes, leaves) = chain(MAX_DEPTH as u32 + 2, first);
+            let refused = LightTree::new(&nodes, &leaves, &[]);
+            assert!(matches!(refused, Err(LightTreeError::TooDeep { .. })), "{refused:?}");
+        }
+    }
+
+    #[test]
+    fn nodes_that_are_no_tree_are_refused() {
+        use LightTreeError::{Child, Count, Everywhere, Leaf};
+        assert!(LightTree::new(&[], &[DARK, EVERYWHERE], &[1]).is_ok());
+        assert_eq!(LightTree::new(&[], &[EVERYWHERE], &[]), Err(Everywhere));
+        assert_eq!(LightTree::new(&[], &[0], &[]), Err(Count { leaves: 0, lights: 1 }));
+        let three = [node(2), node(0), node(1)];
+        assert!(LightTree::new(&three, &[1, 2], &[]).is_ok());
+        assert_eq!(LightTree::new(&three, &[2, 1], &[]), Err(Leaf { node: 1 }));
+        assert_eq!(LightTree::new(&three, &[1], &[]), Err(Leaf { node: 2 }));
+        assert_eq!(LightTree::new(&three, &[1, 2, 2], &[]), Err(Count { leaves: 2, lights: 3 }));
+        for link in [0, 1, 3, u32::MAX] {
+            let bad = [node(link), node(0), node(1)];
+            assert_eq!(LightTree::new(&bad, &[1, 2], &[]), Err(Child { node: 0 }));
+        }
+        // A node that never gets its second child.
+        assert_eq!(LightTree::new(&three[..2], &[1, 2], &[]), Err(Child { node: 0 }));
+    }
+}

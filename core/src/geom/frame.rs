@@ -60,16 +60,19 @@ pub(crate) fn unit(v: Vec3) -> Option<Vec3> {
     unit_of_extreme(v)
 }
 
-/// Scales first.
+/// Scales first, by a power of two: the result is to the last bit that of `v` in any other unit of length.
 #[cold]
 fn unit_of_extreme(v: Vec3) -> Option<Vec3> {
     let scale = v.abs().max_element();
     if !(scale > 0.0 && scale < f32::INFINITY) {
         return None;
     }
-    let w = v / scale;
+    // The exponent alone; of two factors, as that of 1e-45 or its reciprocal is no number.
+    let exponent = libm::ilogbf(scale);
+    let half = exponent / 2;
+    let w = v * libm::scalbnf(1.0, -half) * libm::scalbnf(1.0, half - exponent);
     let squared = w.length_squared();
-    // Between 1 and 3, unless a component is NaN, which the largest one does not show.
+    // Between 1 and 12, unless a component is NaN, which the largest one does not show.
     (squared >= 1.0).then(|| w / num::sqrt(squared))
 }
 
@@ -98,6 +101,17 @@ mod tests {
             let err = f.s.dot(f.t).abs().max(f.s.dot(n).abs()).max((f.t.length() - 1.0).abs());
             assert!(err < 1e-6, "{n} {err}");
             assert!((f.to_world(f.to_local(Vec3::X)) - Vec3::X).length() < 2e-6);
+        }
+    }
+
+    #[test]
+    fn unit_is_the_same_to_the_last_bit_in_other_units_of_length() {
+        for i in 0..1000 {
+            let [x, y, z] = [0, 1, 2].map(|j| num::unit_f32(num::hash2(i, j)) - 0.5);
+            let v = Vec3::new(x, y, z);
+            for power in -100..100 {
+                assert_eq!(unit(v * libm::exp2f(power as f32)), unit(v), "{v} times 2 to the {power}");
+            }
         }
     }
 

@@ -4,6 +4,7 @@
 
 mod disk;
 mod polygon;
+mod segment;
 mod sphere;
 
 pub use disk::disk;
@@ -11,5 +12,7 @@ pub use polygon::{polygon, rectangle, triangle};
 pub use sphere::sphere;
 pub(crate) use sphere::sphere_at;
 
+#[cfg(test)]
+mod disk_tests;
 #[cfg(test)]
 mod tests;

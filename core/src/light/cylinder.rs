@@ -8,7 +8,7 @@ use crate::geom::{Frame, unit};
 use crate::num::{self, TAU};
 use crate::shape::{Cylinder, SurfacePoint};
 use crate::solid_angle::{FromEnd, Span, Sweep};
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Vec3, Vec4};
 
 /// The side of a tube that faces the receiver, close to uniform over its solid angle: the plane's
 /// angle about a parallel of the tube's axis through the receiver is drawn from a table; the
@@ -17,6 +17,13 @@ use glam::{DVec3, Vec3};
 /// Derived: as for a disk, the density is exact whatever the table holds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CylinderSlab {
+    lines: Lines,
+    sweep: Sweep,
+}
+
+/// How the tube lies before the receiver, and the lines of its wall.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Lines {
     tube: Cylinder,
     /// Along the tube's axis, to it, and across both.
     axis: Vec3,
@@ -30,7 +37,6 @@ pub struct CylinderSlab {
     gap: f32,
     /// Whether it is the inner wall that is seen, from within.
     inside: bool,
-    sweep: Sweep,
 }
 
 /// A receiver in the coordinates of a tube's axis.
@@ -71,32 +77,60 @@ impl Foot {
 
 impl CylinderSlab {
     /// * `inside` – whether it is the inner wall that is seen, from within
+    #[inline]
     fn new(tube: &Cylinder, foot: &Foot, inside: bool) -> Option<Self> {
+        let lines = Lines::new(tube, foot, inside);
+        // A right angle from the wall itself; less from afar.
+        let tangent = num::sqrt(lines.gap) * num::sqrt(lines.distance + tube.radius());
+        let half = if inside { 1.0 } else { tube.radius() / (tangent + lines.distance) };
+        Some(Self { lines, sweep: Sweep::new(half, [lines.seen(half); 2])? })
+    }
+}
+
+impl Lines {
+    #[inline]
+    fn new(tube: &Cylinder, foot: &Foot, inside: bool) -> Self {
         let axis = foot.axis.as_vec3();
         let toward = foot.toward.map_or(Frame::from_normal(axis).s, |v| v.as_vec3());
-        let mut slab = Self {
+        let (mut gap, mut distance) = (foot.gap(tube), foot.distance as f32);
+        if inside && gap > 0.0 {
+            (gap, distance) = (0.0, tube.radius());
+        }
+        Self {
             tube: *tube,
             axis,
             toward,
             across: axis.cross(toward),
             start: foot.start as f32,
             length: foot.length as f32,
-            distance: foot.distance as f32,
-            gap: foot.gap(tube),
+            distance,
+            gap,
             inside,
-            sweep: Sweep::EMPTY,
-        };
-        if inside && slab.gap > 0.0 {
-            (slab.gap, slab.distance) = (0.0, tube.radius());
         }
-        // A right angle from the wall itself; less from afar.
-        let tangent = num::sqrt(slab.gap) * num::sqrt(slab.distance + tube.radius());
-        let half = if inside { 1.0 } else { tube.radius() / (tangent + slab.distance) };
-        slab.sweep = Sweep::symmetric(half, |turn| {
-            let (sin_cos, rate) = slab.angle_at(half - turn);
-            slab.line_at(sin_cos).0.extent() * rate
-        })?;
-        Some(slab)
+    }
+
+    /// Solid angle per turn at [`Sweep::turns`] from either end: as [`Lines::angle_at`] and
+    /// [`Lines::line_at`], four at a time.
+    #[inline]
+    fn seen(&self, half: f32) -> Vec4 {
+        let (d, r) = (self.distance, self.tube.radius());
+        let z = Vec4::splat(half) - Sweep::turns(half);
+        let scale = (z * z + 1.0).recip() * 2.0;
+        let (sin, cos) = (z * scale, (1.0 - z) * (z + 1.0) * 0.5 * scale);
+        let (sin, cos, rate) = if self.inside {
+            (sin * cos * 2.0, 1.0 - sin * sin * 2.0, scale * 2.0)
+        } else {
+            (sin, cos, scale)
+        };
+        let half_chord = num::sqrt_of_four((r - sin * d) * (sin * d + r));
+        let (power, middle) = (self.gap * (d + r), cos * d);
+        let away = if self.gap > 0.0 {
+            power / (middle + half_chord)
+        } else {
+            let ahead = middle.cmpgt(Vec4::ZERO);
+            Vec4::select(ahead, middle + half_chord, -power / (half_chord - middle))
+        };
+        Span::extents(Vec4::splat(self.start), Vec4::splat(self.length), away) * rate
     }
 
     /// Sine and cosine of the plane's angle `α` at a turn, and the angle per turn. A turn is
@@ -112,8 +146,8 @@ impl CylinderSlab {
         }
     }
 
-    /// The line of the wall at the sine and cosine of a plane's angle, and its unit direction from the tube's axis in the
-    /// local axes `toward` and `across`.
+    /// The line of the wall at the sine and cosine of a plane's angle, and its unit direction from the
+    /// tube's axis in the local axes `toward` and `across`.
     #[inline]
     fn line_at(&self, [sin, cos]: [f32; 2]) -> (Span, [f32; 2]) {
         let (d, r) = (self.distance, self.tube.radius());
@@ -140,8 +174,10 @@ impl CylinderSlab {
     }
 
     /// The line of the wall through a point, its turn, and the angle per turn.
+    ///
+    /// * `half` – half of the width of the sweep
     #[inline]
-    fn line_through(&self, at: &SurfacePoint) -> (Span, FromEnd, f32) {
+    fn line_through(&self, at: &SurfacePoint, half: f32) -> (Span, FromEnd, f32) {
         let n = if self.tube.is_inward() { -at.normal } else { at.normal };
         let (cos, sin) = (-n.dot(self.toward), n.dot(self.across));
         let r = self.tube.radius();
@@ -156,39 +192,40 @@ impl CylinderSlab {
             (true, false) => tangent / (1.0 + num::sqrt(1.0 + tangent * tangent)),
             (true, true) => 1.0 / (tangent + num::sqrt(1.0 + tangent * tangent)),
         };
-        let turn = FromEnd { turn: self.sweep.half() - z, low: y < 0.0 };
+        let turn = FromEnd { turn: half - z, low: y < 0.0 };
         (self.span(away), turn, self.angle_at(z).1)
     }
 }
 
 impl SurfaceView for CylinderSlab {
-    #[inline]
+    #[inline(always)]
     fn sample(&self, u: [f32; 2]) -> Option<SurfaceSample> {
+        let Lines { tube, axis, toward, across, .. } = &self.lines;
         let turn = self.sweep.sample(u[0]);
         let z = self.sweep.half() - turn.turn;
-        let ([sin, cos], _) = self.angle_at(if turn.low { -z } else { z });
-        let (span, out) = self.line_at([sin, cos]);
+        let ([sin, cos], _) = self.lines.angle_at(if turn.low { -z } else { z });
+        let (span, out) = self.lines.line_at([sin, cos]);
         if !(span.away > 0.0) {
             return None;
         }
         let (y, fraction) = span.at(u[1]);
-        let n = unit(self.toward * out[0] + self.across * out[1])?;
+        let n = unit(*toward * out[0] + *across * out[1])?;
         let distance = num::sqrt(y * y + span.away * span.away);
-        let plane = self.toward * cos + self.across * sin;
-        let wi = unit(self.axis * (y / distance) + plane * (span.away / distance))?;
-        Some(SurfaceSample { at: self.tube.point(fraction, n), wi, distance })
+        let plane = *toward * cos + *across * sin;
+        let wi = unit(*axis * (y / distance) + plane * (span.away / distance))?;
+        Some(SurfaceSample { at: tube.point(fraction, n), wi, distance })
     }
 
-    #[inline]
+    #[inline(always)]
     fn pdf_solid_angle(&self, at: &SurfacePoint, _: Vec3, _: f32) -> Option<f32> {
-        let (span, turn, rate) = self.line_through(at);
+        let (span, turn, rate) = self.lines.line_through(at, self.sweep.half());
         let pdf = self.sweep.pdf(turn) / (span.extent() * rate);
         (pdf > 0.0 && pdf.is_finite()).then_some(pdf)
     }
 
     fn invert(&self, at: &SurfacePoint, _: Vec3) -> Option<[f32; 2]> {
-        let (span, turn, _) = self.line_through(at);
-        let (fraction, _) = self.tube.coordinates(at.point);
+        let (span, turn, _) = self.lines.line_through(at, self.sweep.half());
+        let (fraction, _) = self.lines.tube.coordinates(at.point);
         let u = [self.sweep.share(turn), span.share(fraction.clamp(0.0, 1.0))];
         u.iter().all(|x| x.is_finite()).then(|| u.map(num::clamp_unit))
     }

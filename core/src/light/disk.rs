@@ -10,7 +10,7 @@ use crate::num;
 use crate::shape::{Disk, SurfacePoint};
 use crate::solid_angle::{FromEnd, Span, Sweep};
 use crate::warp;
-use glam::{Vec2, Vec3};
+use glam::{Vec2, Vec3, Vec4};
 
 /// A disk or ellipse, close to uniform over its solid angle: the plane's angle about an axis that
 /// passes through the receiver, parallel to the disk and across the way to its centre, is drawn from
@@ -20,9 +20,18 @@ use glam::{Vec2, Vec3};
 /// integral); this one is within a percent of it, and its density is exact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DiskSlab {
+    lines: Lines,
+    sweep: Sweep,
+}
+
+/// How the disk lies before the receiver, and its lines parallel to the axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Lines {
     disk: Disk,
     /// Unit vectors: along the axis, from the foot of the receiver to the centre, to the plane.
     axes: [Vec3; 3],
+    /// The disk's.
+    normal: Vec3,
     /// Distance of the receiver from the plane, and of its foot from the centre (m).
     height: f32,
     offset: f32,
@@ -37,7 +46,6 @@ pub struct DiskSlab {
     marks: [Mark; 3],
     /// How many turns the centre is from either edge.
     to_centre: [f32; 2],
-    sweep: Sweep,
 }
 
 /// A line that others are measured from.
@@ -98,40 +106,73 @@ struct Line {
 
 impl DiskSlab {
     /// `None` from within the disk's plane, and where rounding leaves no solid angle.
-    fn new(disk: &Disk, from: &Receiver) -> Option<Self> {
+    ///
+    /// * `rise` – as [`rise`]
+    #[inline(always)]
+    fn new(disk: &Disk, from: &Receiver, normal: Vec3, rise: f32) -> Option<Self> {
+        let lines = Lines::new(disk, from, normal, rise)?;
+        let half = 0.5 * (lines.to_centre[0] + lines.to_centre[1]);
+        Some(Self { lines, sweep: Sweep::new(half, [lines.seen(half, true), lines.seen(half, false)])? })
+    }
+}
+
+impl Lines {
+    #[inline(always)]
+    fn new(disk: &Disk, from: &Receiver, normal: Vec3, rise: f32) -> Option<Self> {
         let centre = disk.centre() - from.point;
-        let (u, v) = (unit(disk.axis_u())?, unit(disk.axis_v())?);
-        let normal = disk.normal();
-        let rise = num::sum_of_products(normal.to_array(), centre.to_array());
+        let (a, b) = (disk.axis_u().length(), disk.axis_v().length());
+        let (u, v) = (disk.axis_u() * (1.0 / a), disk.axis_v() * (1.0 / b));
         let (p, q) = (centre.dot(u), centre.dot(v));
         let offset = num::sqrt(p * p + q * q);
         let g = if offset > 0.0 { Vec2::new(p / offset, q / offset) } else { Vec2::X };
-        let (a, b) = (disk.axis_u().length(), disk.axis_v().length());
-        let reach = num::sqrt(a * a * g.x * g.x + b * b * g.y * g.y);
+        let (ag, bg) = (a * g.x, b * g.y);
+        let reach = num::sqrt(ag * ag + bg * bg);
         let height = rise.abs();
         if !(height > 0.0 && reach > 0.0) {
             return None;
         }
-        let marks = [offset - reach, offset, offset + reach].map(|y| Mark::new(height, y));
-        let to_centre = [0, 2].map(|i| marks[i].apart(&marks[1], height, reach));
-        let mut slab = Self {
+        let per_reach = 1.0 / reach;
+        let mark = |y: f32| Mark::new(height, y);
+        let marks = [mark(offset - reach), mark(offset), mark(offset + reach)];
+        let to_centre = |mark: &Mark| mark.apart(&marks[1], height, reach);
+        Some(Self {
             disk: *disk,
             axes: [u * g.y - v * g.x, u * g.x + v * g.y, normal * 1.0_f32.copysign(rise)],
+            normal,
             height,
             offset,
             reach,
-            half_chord: a * (b / reach),
-            shear: ((a - b) / reach) * ((a + b) / reach) * (g.x * g.y),
-            along: Vec2::new(a * g.x / reach, b * g.y / reach),
+            half_chord: a * (b * per_reach),
+            shear: ((a - b) * per_reach) * ((a + b) * per_reach) * (g.x * g.y),
+            along: Vec2::new(ag * per_reach, bg * per_reach),
             marks,
-            to_centre,
-            sweep: Sweep::EMPTY,
+            to_centre: [to_centre(&marks[0]), to_centre(&marks[2])],
+        })
+    }
+
+    /// Solid angle per turn at [`Sweep::turns`] from an end.
+    ///
+    /// With less care than [`Lines::line_at`], which a table may take: the distances of a line from
+    /// both edges are measured each for itself, so that neither vanishes before the edge.
+    #[inline]
+    fn seen(&self, half: f32, low: bool) -> Vec4 {
+        let h = self.height;
+        let turns = Sweep::turns(half);
+        let [near, far] =
+            if low { [&self.marks[0], &self.marks[2]] } else { [&self.marks[2], &self.marks[0]] };
+        let inward = if low { 1.0 } else { -1.0 };
+        let z = turns * inward + near.turn;
+        let rest = Vec4::splat(near.rest) - turns * inward * (z + near.turn);
+        // Distances from both edges, in units of the reach.
+        let across = |edge: &Mark, apart: Vec4| {
+            apart * (z * edge.turn + 1.0) * (2.0 * h / edge.rest / self.reach) / rest
         };
-        slab.sweep = Sweep::new(0.5 * (to_centre[0] + to_centre[1]), |turn| {
-            let line = slab.line_at(turn);
-            line.span.extent() * (2.0 / (1.0 + line.turn2))
-        })?;
-        Some(slab)
+        let (m, n) = (across(near, turns), across(far, 2.0 * half - turns));
+        let half_length = num::sqrt_of_four(m * n) * self.half_chord;
+        let middle = (m - n) * (0.5 * inward * self.shear * self.reach);
+        let turned = z * z + 1.0;
+        let away = turned / rest * h;
+        Span::extents(middle - half_length, half_length * 2.0, away) * 2.0 / turned
     }
 
     /// The line at a turn, which is `z = tan(α / 2)`.
@@ -169,7 +210,8 @@ impl DiskSlab {
             FromEnd { turn: edge.apart(&mark, self.height, between * self.reach), low }
         };
         let near = from_end(s < 0.0);
-        let turn = if near.turn > self.sweep.half() { from_end(s >= 0.0) } else { near };
+        let turn =
+            if near.turn > 0.5 * (self.to_centre[0] + self.to_centre[1]) { from_end(s >= 0.0) } else { near };
         let line = self.line(s, num::sqrt((1.0 - s) * (1.0 + s)), away);
         (Line { y, turn2: mark.turn * mark.turn, ..line }, turn)
     }
@@ -193,39 +235,46 @@ impl DiskSlab {
 }
 
 impl SurfaceView for DiskSlab {
-    #[inline]
+    #[inline(always)]
     fn sample(&self, u: [f32; 2]) -> Option<SurfaceSample> {
-        let line = self.line_at(self.sweep.sample(u[0]));
+        let Lines { disk, axes, normal, height, along: e, .. } = &self.lines;
+        let line = self.lines.line_at(self.sweep.sample(u[0]));
         let (x, fraction) = line.span.at(u[1]);
         // In units of the semi-axes a chord of the ellipse is one of the unit circle.
         let k = (2.0 * fraction - 1.0) * line.half;
-        let (e, s) = (self.along, line.s);
-        let at = self.disk.point(s * e.x + k * e.y, s * e.y - k * e.x);
-        let way = self.axes[0] * x + self.axes[1] * line.y + self.axes[2] * self.height;
+        let s = line.s;
+        let at = SurfacePoint { normal: *normal, ..disk.point(s * e.x + k * e.y, s * e.y - k * e.x) };
+        let way = axes[0] * x + axes[1] * line.y + axes[2] * *height;
         let distance = num::sqrt(x * x + line.span.away * line.span.away);
         (distance > 0.0 && distance.is_finite()).then_some(SurfaceSample { at, wi: unit(way)?, distance })
     }
 
-    #[inline]
+    #[inline(always)]
     fn pdf_solid_angle(&self, at: &SurfacePoint, _: Vec3, _: f32) -> Option<f32> {
-        let (line, turn) = self.line_through(self.place(at).0);
+        let (line, turn) = self.lines.line_through(self.lines.place(at).0);
         let pdf = self.sweep.pdf(turn) * (0.5 * (1.0 + line.turn2)) / line.span.extent();
         (pdf > 0.0 && pdf.is_finite()).then_some(pdf)
     }
 
     fn invert(&self, at: &SurfacePoint, _: Vec3) -> Option<[f32; 2]> {
-        let (s, fraction) = self.place(at);
-        let (line, turn) = self.line_through(s);
+        let (s, fraction) = self.lines.place(at);
+        let (line, turn) = self.lines.line_through(s);
         let u = [self.sweep.share(turn), line.span.share(fraction)];
         u.iter().all(|x| x.is_finite()).then(|| u.map(num::clamp_unit))
     }
 }
 
+/// How far the disk's plane is from the receiver along the normal (m).
+///
+/// In double precision: at 1 mrad over the plane, single has four digits of it.
+#[inline(always)]
+fn rise(disk: &Disk, normal: Vec3, from: &Receiver) -> f32 {
+    normal.as_dvec3().dot(disk.centre().as_dvec3() - from.point.as_dvec3()) as f32
+}
+
 /// True when a side that emits faces the receiver.
 #[inline]
-fn is_seen(disk: &Disk, from: &Receiver, sides: Sides) -> bool {
-    let to_centre = disk.centre() - from.point;
-    let rise = num::sum_of_products(disk.normal().to_array(), to_centre.to_array());
+fn faces(rise: f32, sides: Sides) -> bool {
     rise < 0.0 || (sides == Sides::Both && rise > 0.0)
 }
 
@@ -258,17 +307,19 @@ impl SampledShape for Disk {
         sides: Sides,
         then: U,
     ) -> Option<U::Output> {
-        if !is_seen(self, from, sides) {
+        let normal = self.normal();
+        let rise = rise(self, normal, from);
+        if !faces(rise, sides) {
             return None;
         }
         let radius = num::sqrt(self.axis_u().length_squared().max(self.axis_v().length_squared()));
         match method.required(from, self.centre(), radius, SurfaceDensity::Area) {
             SurfaceDensity::Area => then.with(AreaView::new(*self, from), View::Area),
-            _ => then.with(DiskSlab::new(self, from)?, View::SolidAngle),
+            _ => then.with(DiskSlab::new(self, from, normal, rise)?, View::SolidAngle),
         }
     }
 
     fn projected_solid_angle(&self, from: &Receiver, sides: Sides) -> Option<f32> {
-        if is_seen(self, from, sides) { irradiance::disk(from, self) } else { Some(0.0) }
+        Some(if faces(rise(self, self.normal(), from), sides) { irradiance::disk(from, self) } else { 0.0 })
     }
 }

@@ -40,7 +40,7 @@ pub use spot::Spot;
 pub use triangle::TriangleSolidAngle;
 pub use view::{AreaView, NoView, SurfaceSample, SurfaceView, UseView, View};
 
-use projected_view::{faces, flat_projected_solid_angle, is_near};
+use projected_view::{flat_projected_solid_angle, is_near};
 
 use crate::Rgb;
 use crate::shape::{Cylinder, Disk, Rectangle, Sphere, SurfacePoint, Triangle};

@@ -1,32 +1,63 @@
 //! Sampling a convex polygon: a triangle of its fan, then a place on that.
 
 use super::{
-    AreaView, Cone, FlatShape, ProjectedView, Receiver, SampledShape, Sides, SurfaceDensity, SurfaceSample,
-    SurfaceView, UseView, View, faces, flat_projected_solid_angle, is_near,
+    Cone, FlatShape, ProjectedView, Receiver, SampledShape, Sides, SurfaceDensity, SurfaceSample,
+    SurfaceView, UseView, View, flat_projected_solid_angle, is_near,
 };
 use crate::geom::Frame;
 use crate::num::{self, ONE_MINUS_EPSILON};
 use crate::projected::Chart;
-use crate::shape::{Polygon, Shape, SurfacePoint, Triangle};
-use crate::solid_angle::{SphericalTriangle, TrianglePlace, triangle_solid_angle};
+use crate::shape::{Polygon, Shape, SurfacePoint};
+use crate::solid_angle::{Apex, Corner, SphericalTriangle, TrianglePlace, half_solid_angle};
 use crate::warp;
-use glam::{Vec2, Vec3};
+use glam::{Vec2, Vec3, Vec4};
 
-/// What each triangle of the fan holds of a measure.
+/// Room for the triangles of a fan, four at a time.
+const LANES: usize = 8;
+
+/// What each triangle of the fan holds of a measure; 0 beyond the last.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Shares {
-    parts: [f32; Polygon::MAX_CORNERS - 2],
+    parts: [f32; LANES],
     total: f32,
 }
 
 impl Shares {
+    const NONE: Self = Self { parts: [0.0; LANES], total: 0.0 };
+
     #[inline]
-    fn new(shape: &Polygon, measure: impl Fn(&Triangle) -> f32) -> Self {
-        let mut shares = Self { parts: [0.0; Polygon::MAX_CORNERS - 2], total: 0.0 };
-        for (i, part) in shares.parts.iter_mut().take(shape.fan_len()).enumerate() {
-            *part = measure(&shape.fan(i));
-            shares.total += *part;
+    fn of_area(shape: &Polygon) -> Self {
+        let mut shares = Self::NONE;
+        for i in 0..shape.fan_len() {
+            shares.parts[i] = shape.fan(i).area();
+            shares.total += shares.parts[i];
         }
+        shares
+    }
+
+    /// Shares of the solid angle (sr).
+    #[inline]
+    fn of_solid_angle(shape: &Polygon, from: Vec3) -> Self {
+        let mut shares = Self::NONE;
+        let [first, second, rest @ ..] = shape.corners() else { return shares };
+        let apex = Apex::new(from, *first);
+        let mut before = Corner::new(&apex, *second);
+        let (mut sin, mut cos) = ([0.0; LANES], [1.0; LANES]);
+        for (i, corner) in rest.iter().enumerate() {
+            let next = Corner::new(&apex, *corner);
+            [sin[i], cos[i]] = half_solid_angle(&apex, &before, &next);
+            before = next;
+        }
+        let four = |i: usize| {
+            let [sin, cos] = [&sin, &cos].map(|all| Vec4::from_slice(&all[i..]));
+            let angles = num::atan2_of_four(sin, cos) * 2.0;
+            // NaN at a corner.
+            Vec4::select(angles.cmpgt(Vec4::ZERO), angles, Vec4::ZERO)
+        };
+        let angles = [four(0), if rest.len() > 4 { four(4) } else { Vec4::ZERO }];
+        shares.parts[..4].copy_from_slice(&angles[0].to_array());
+        shares.parts[4..].copy_from_slice(&angles[1].to_array());
+        shares.total = shares.parts.iter().sum();
         shares
     }
 
@@ -60,7 +91,7 @@ impl SampledShape for Polygon {
     /// Density `1 / area` (m⁻²).
     #[inline]
     fn sample_area(&self, u: [f32; 2]) -> SurfacePoint {
-        let (i, first) = Shares::new(self, Triangle::area).choose(u[0]);
+        let (i, first) = Shares::of_area(self).choose(u[0]);
         let [b1, b2] = warp::square_to_triangle([first, u[1]]);
         self.place(i, b1, b2)
     }
@@ -72,7 +103,7 @@ impl SampledShape for Polygon {
     fn sample_area_inverse(&self, point: Vec3) -> [f32; 2] {
         let (i, barycentric) = self.locate(point);
         let [first, second] = warp::triangle_to_square(barycentric);
-        [Shares::new(self, Triangle::area).join(i, first), second]
+        [Shares::of_area(self).join(i, first), second]
     }
 
     #[inline(always)]
@@ -83,19 +114,7 @@ impl SampledShape for Polygon {
         sides: Sides,
         then: U,
     ) -> Option<U::Output> {
-        let chart = self.chart(from.point);
-        if !faces(&chart, sides) {
-            return None;
-        }
-        let bounds = self.bounds();
-        let (centre, radius) = ((bounds.min + bounds.max) * 0.5, (bounds.max - bounds.min).length() * 0.5);
-        match method.required(from, centre, radius, SurfaceDensity::Area) {
-            SurfaceDensity::Area => then.with(AreaView::new(*self, from), View::Area),
-            SurfaceDensity::SolidAngle => {
-                then.with(PolygonSolidAngle::new(*self, from.point)?, View::SolidAngle)
-            }
-            _ => then.with(ProjectedView::new(self, from, &chart)?, View::Projected),
-        }
+        self.with_flat_view(from, method, sides, then)
     }
 
     fn projected_solid_angle(&self, from: &Receiver, sides: Sides) -> Option<f32> {
@@ -105,6 +124,13 @@ impl SampledShape for Polygon {
 
 /// Metres from the first corner, along a frame of the normal.
 impl FlatShape for Polygon {
+    type SolidAngle = PolygonSolidAngle;
+
+    #[inline(always)]
+    fn solid_angle_view(&self, from: Vec3, _: &Chart) -> Option<PolygonSolidAngle> {
+        PolygonSolidAngle::new(*self, from)
+    }
+
     #[inline]
     fn chart(&self, from: Vec3) -> Chart {
         let Frame { s, t, .. } = Frame::from_normal(self.normal());
@@ -161,9 +187,9 @@ pub struct PolygonSolidAngle {
 }
 
 impl PolygonSolidAngle {
-    #[inline]
+    #[inline(always)]
     fn new(shape: Polygon, from: Vec3) -> Option<Self> {
-        let shares = Shares::new(&shape, |part| triangle_solid_angle(from, &part.corners()));
+        let shares = Shares::of_solid_angle(&shape, from);
         (shares.total >= f32::MIN_POSITIVE && shares.total.is_finite()).then_some(Self {
             shape,
             from,
@@ -171,15 +197,17 @@ impl PolygonSolidAngle {
         })
     }
 
-    #[inline]
+    #[inline(always)]
     fn part(&self, index: usize) -> Option<SphericalTriangle> {
         let [shared, first, second] = self.shape.fan(index).corners();
-        SphericalTriangle::new(self.from, &[first, shared, second])
+        let apex = Apex::new(self.from, first);
+        let (shared, second) = (Corner::new(&apex, shared), Corner::new(&apex, second));
+        SphericalTriangle::from_corners(&apex, &shared, &second, self.shares.parts[index])
     }
 }
 
 impl SurfaceView for PolygonSolidAngle {
-    #[inline]
+    #[inline(always)]
     fn sample(&self, u: [f32; 2]) -> Option<SurfaceSample> {
         let (i, first) = self.shares.choose(u[0]);
         let TrianglePlace { barycentric: [shared, second], direction: wi, distance } =
@@ -188,7 +216,7 @@ impl SurfaceView for PolygonSolidAngle {
         Some(SurfaceSample { at, wi, distance })
     }
 
-    #[inline]
+    #[inline(always)]
     fn pdf_solid_angle(&self, _: &SurfacePoint, _: Vec3, _: f32) -> Option<f32> {
         Some(1.0 / self.shares.total)
     }

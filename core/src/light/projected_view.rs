@@ -1,6 +1,8 @@
-//! Flat lights with straight edges, uniform over projected solid angle.
+//! Flat lights with straight edges: their choice of a density, and the one over projected solid angle.
 
-use super::{Receiver, SampledShape, Sides, SurfaceSample, SurfaceView};
+use super::{
+    AreaView, Receiver, SampledShape, Sides, SurfaceDensity, SurfaceSample, SurfaceView, UseView, View,
+};
 use crate::num;
 use crate::projected::{Chart, ProjectedPolygon};
 use crate::shape::SurfacePoint;
@@ -8,6 +10,21 @@ use glam::{Vec2, Vec3};
 
 /// A convex polygon that lights can have as their surface.
 pub trait FlatShape: SampledShape {
+    /// Uniform over solid angle.
+    type SolidAngle: SurfaceView;
+
+    /// Centre and radius of a sphere that holds the shape (m).
+    #[inline]
+    fn sphere(&self) -> (Vec3, f32) {
+        let bounds = self.bounds();
+        ((bounds.min + bounds.max) * 0.5, (bounds.max - bounds.min).length() * 0.5)
+    }
+
+    /// The density over solid angle; `None` where rounding leaves none.
+    ///
+    /// * `chart` – the shape's, from the receiver
+    fn solid_angle_view(&self, from: Vec3, chart: &Chart) -> Option<Self::SolidAngle>;
+
     /// The shape's plane as it is seen from a point (m); the normal is along `u × v`.
     fn chart(&self, from: Vec3) -> Chart;
 
@@ -19,6 +36,40 @@ pub trait FlatShape: SampledShape {
 
     /// The place of a point of the surface in the chart.
     fn place_of(&self, point: Vec3) -> Vec2;
+
+    /// [`SampledShape::with_view`] of every flat shape.
+    ///
+    /// * `N` – as in [`ProjectedPolygon`]
+    #[inline(always)]
+    fn with_flat_view<const N: usize, U>(
+        &self,
+        from: &Receiver,
+        method: SurfaceDensity,
+        sides: Sides,
+        then: U,
+    ) -> Option<U::Output>
+    where
+        U: UseView<View<Self, Self::SolidAngle, ProjectedView<Self, N>>>,
+    {
+        let chart = self.chart(from.point);
+        if !faces(&chart, sides) {
+            return None;
+        }
+        // Only then is the sphere asked for.
+        let method = if method == SurfaceDensity::Auto {
+            let (centre, radius) = self.sphere();
+            method.required(from, centre, radius, SurfaceDensity::Area)
+        } else {
+            method
+        };
+        match method {
+            SurfaceDensity::Area => then.with(AreaView::new(*self, from), View::Area),
+            SurfaceDensity::SolidAngle => {
+                then.with(self.solid_angle_view(from.point, &chart)?, View::SolidAngle)
+            }
+            _ => ProjectedView::with(self, from, &chart, |view| then.with(view, View::Projected)),
+        }
+    }
 }
 
 /// The part of a polygon above the receiver's horizon: uniform over projected solid angle,
@@ -33,20 +84,30 @@ pub struct ProjectedView<S, const N: usize> {
 }
 
 impl<S: FlatShape, const N: usize> ProjectedView<S, N> {
-    /// `None` in the plane and when nothing is above the horizon.
+    /// Hands the view to `then`; `None` in the plane and when nothing is above the horizon.
+    ///
+    /// It is made where it stays: moving it out of an `Option` costs as much as a sector.
     ///
     /// * `chart` – the shape's, from the receiver
-    #[inline]
-    #[must_use]
-    pub fn new(shape: &S, from: &Receiver, chart: &Chart) -> Option<Self> {
-        let polygon = ProjectedPolygon::new(from.normal, chart, shape.corners().as_ref())?;
-        Some(Self { shape: *shape, from: from.point, polygon })
+    #[inline(always)]
+    pub fn with<R>(
+        shape: &S,
+        from: &Receiver,
+        chart: &Chart,
+        then: impl FnOnce(Self) -> Option<R>,
+    ) -> Option<R> {
+        let mut view =
+            Self { shape: *shape, from: from.point, polygon: ProjectedPolygon::empty(from.normal) };
+        if !view.polygon.prepare(chart, shape.corners().as_ref()) {
+            return None;
+        }
+        then(view)
     }
 }
 
 /// True when the receiver of a chart is on a side that emits.
 #[inline]
-pub(super) fn faces(chart: &Chart, sides: Sides) -> bool {
+fn faces(chart: &Chart, sides: Sides) -> bool {
     let volume = chart.volume();
     volume < 0.0 || (sides == Sides::Both && volume > 0.0)
 }

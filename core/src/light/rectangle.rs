@@ -1,8 +1,8 @@
 //! Sampling a rectangle.
 
 use super::{
-    AreaView, Cone, FlatShape, ProjectedView, Receiver, SampledShape, Sides, SurfaceDensity, SurfaceSample,
-    SurfaceView, UseView, View, faces, flat_projected_solid_angle,
+    Cone, FlatShape, ProjectedView, Receiver, SampledShape, Sides, SurfaceDensity, SurfaceSample,
+    SurfaceView, UseView, View, flat_projected_solid_angle,
 };
 use crate::num::{self, ONE_MINUS_EPSILON};
 use crate::projected::Chart;
@@ -36,18 +36,7 @@ impl SampledShape for Rectangle {
         sides: Sides,
         then: U,
     ) -> Option<U::Output> {
-        let chart = self.chart(from.point);
-        if !faces(&chart, sides) {
-            return None;
-        }
-        let radius = (self.half_u() + self.half_v()).length();
-        match method.required(from, self.centre(), radius, SurfaceDensity::Area) {
-            SurfaceDensity::Area => then.with(AreaView::new(*self, from), View::Area),
-            SurfaceDensity::SolidAngle => {
-                then.with(RectangleSolidAngle::new(*self, Local::new(self, &chart))?, View::SolidAngle)
-            }
-            _ => then.with(ProjectedView::new(self, from, &chart)?, View::Projected),
-        }
+        self.with_flat_view(from, method, sides, then)
     }
 
     fn projected_solid_angle(&self, from: &Receiver, sides: Sides) -> Option<f32> {
@@ -56,6 +45,18 @@ impl SampledShape for Rectangle {
 }
 
 impl FlatShape for Rectangle {
+    type SolidAngle = RectangleSolidAngle;
+
+    #[inline]
+    fn sphere(&self) -> (Vec3, f32) {
+        (self.centre(), (self.half_u() + self.half_v()).length())
+    }
+
+    #[inline(always)]
+    fn solid_angle_view(&self, _: Vec3, chart: &Chart) -> Option<RectangleSolidAngle> {
+        RectangleSolidAngle::new(*self, Local::new(self, chart))
+    }
+
     #[inline]
     fn chart(&self, from: Vec3) -> Chart {
         Chart::from_axes(from, self.centre(), self.half_u(), self.half_v())

@@ -107,3 +107,45 @@ fn inverses_return_the_uniforms() {
         }
     }
 }
+
+/// Samples, densities and the irradiance from a scene and from the same in another unit of length.
+#[track_caller]
+fn is_scale_free<S: SampledShape + core::fmt::Debug>(
+    [one, other]: [S; 2],
+    from: [&Receiver; 2],
+    u: [f32; 2],
+) {
+    let e =
+        [one.projected_solid_angle(from[0], Sides::Both), other.projected_solid_angle(from[1], Sides::Both)];
+    assert_eq!(e[0], e[1], "{one:?} {from:?}");
+    for method in METHODS {
+        let drawn = [(one, from[0]), (other, from[1])].map(|(shape, from)| {
+            let view = shape.view(from, method, Sides::Both)?;
+            let sample = view.sample(u)?;
+            let cos = sample.at.normal.dot(sample.wi).abs();
+            Some((sample.wi, view.pdf_solid_angle(&sample.at, sample.wi, cos)))
+        });
+        assert_eq!(drawn[0], drawn[1], "{one:?} {from:?} {method:?} {u:?}");
+    }
+}
+
+#[test]
+fn a_power_of_two_as_unit_of_length_changes_no_bit() {
+    for i in 0..20_000u32 {
+        let [a, b] = uniforms(i + 3);
+        let size = num::pow(10.0, 14.0 * a - 7.0);
+        let (axis, place) = (warp::uniform_sphere(uniforms(i)), warp::uniform_sphere(uniforms(i + 5)));
+        let across = axis.any_orthonormal_vector();
+        let distance = num::pow(10.0, 6.0 * b - 3.0);
+        let normal = warp::uniform_sphere(uniforms(i + 7));
+        let k = libm::exp2f((i % 13) as f32 - 6.0);
+        let [near, far] = [1.0, k].map(|k| Receiver { point: place * (distance * size) * k, normal });
+        let (u, from) = (uniforms(i + 9), [&near, &far]);
+        let disk = |k: f32| Disk::new(Vec3::ZERO, axis * size * k, across * (0.3 * size) * k).unwrap();
+        is_scale_free([disk(1.0), disk(k)], from, u);
+        let ball = |k: f32| Sphere::new(Vec3::ZERO, size * k).unwrap();
+        is_scale_free([ball(1.0), ball(k)], from, u);
+        let tube = |k: f32| Cylinder::new(Vec3::ZERO, axis * size * k, 0.3 * size * k).unwrap();
+        is_scale_free([tube(1.0), tube(k)], from, u);
+    }
+}

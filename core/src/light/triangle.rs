@@ -1,11 +1,11 @@
 //! Sampling a triangle.
 
 use super::{
-    AreaView, Cone, FlatShape, ProjectedView, Receiver, SampledShape, Sides, SurfaceDensity, SurfaceSample,
-    SurfaceView, UseView, View, faces, flat_projected_solid_angle, is_near,
+    Cone, FlatShape, ProjectedView, Receiver, SampledShape, Sides, SurfaceDensity, SurfaceSample,
+    SurfaceView, UseView, View, flat_projected_solid_angle, is_near,
 };
 use crate::projected::Chart;
-use crate::shape::{Shape, SurfacePoint, Triangle};
+use crate::shape::{SurfacePoint, Triangle};
 use crate::solid_angle::{SphericalTriangle, TrianglePlace};
 use crate::warp;
 use glam::{Vec2, Vec3};
@@ -37,19 +37,7 @@ impl SampledShape for Triangle {
         sides: Sides,
         then: U,
     ) -> Option<U::Output> {
-        let chart = self.chart(from.point);
-        if !faces(&chart, sides) {
-            return None;
-        }
-        let bounds = self.bounds();
-        let (centre, radius) = ((bounds.min + bounds.max) * 0.5, (bounds.max - bounds.min).length() * 0.5);
-        match method.required(from, centre, radius, SurfaceDensity::Area) {
-            SurfaceDensity::Area => then.with(AreaView::new(*self, from), View::Area),
-            SurfaceDensity::SolidAngle => {
-                then.with(TriangleSolidAngle::new(*self, from.point)?, View::SolidAngle)
-            }
-            _ => then.with(ProjectedView::new(self, from, &chart)?, View::Projected),
-        }
+        self.with_flat_view(from, method, sides, then)
     }
 
     fn projected_solid_angle(&self, from: &Receiver, sides: Sides) -> Option<f32> {
@@ -58,6 +46,13 @@ impl SampledShape for Triangle {
 }
 
 impl FlatShape for Triangle {
+    type SolidAngle = TriangleSolidAngle;
+
+    #[inline(always)]
+    fn solid_angle_view(&self, from: Vec3, _: &Chart) -> Option<TriangleSolidAngle> {
+        TriangleSolidAngle::new(*self, from)
+    }
+
     #[inline]
     fn chart(&self, from: Vec3) -> Chart {
         Chart::from_corners(from, Triangle::corners(self))

@@ -6,7 +6,8 @@
 
 mod trig;
 
-pub use trig::{atan2, sin_cos, sin_cos_turns};
+use glam::Vec4;
+pub use trig::{atan2, atan2_of_four, sin_cos, sin_cos_turns};
 
 pub use core::f32::consts::{FRAC_1_PI, FRAC_PI_2, FRAC_PI_4, PI, TAU};
 
@@ -32,6 +33,14 @@ pub fn sqrt(x: f32) -> f32 {
     libm::sqrtf(if x > 0.0 { x } else { 0.0 })
 }
 
+/// Square roots, as [`sqrt`].
+#[inline(always)]
+#[must_use]
+pub fn sqrt_of_four(x: Vec4) -> Vec4 {
+    let x = Vec4::select(x.cmpgt(Vec4::ZERO), x, Vec4::ZERO);
+    Vec4::new(libm::sqrtf(x.x), libm::sqrtf(x.y), libm::sqrtf(x.z), libm::sqrtf(x.w))
+}
+
 /// The larger of two numbers; `b` when `a` is NaN. A single instruction, which `f32::max` is not.
 #[inline(always)]
 #[must_use]
@@ -52,6 +61,20 @@ pub fn clamp(x: f32, low: f32, high: f32) -> f32 {
 #[must_use]
 pub fn sqrt_in_double(x: f64) -> f64 {
     libm::sqrt(x)
+}
+
+/// Sine and cosine in double precision of an angle (rad).
+#[inline]
+#[must_use]
+pub fn sin_cos_in_double(x: f64) -> (f64, f64) {
+    libm::sincos(x)
+}
+
+/// Angle of the vector (x, y) in double precision (rad), in `[−π, π]`.
+#[inline]
+#[must_use]
+pub fn atan2_in_double(y: f64, x: f64) -> f64 {
+    libm::atan2(y, x)
 }
 
 /// `x` in `[0, 1)`: the nearest there, and 0 for NaN.

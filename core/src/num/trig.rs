@@ -8,6 +8,7 @@
 //! squares), rounded one after the other with the rest fitted anew.
 
 use super::{FRAC_PI_2, PI, TAU};
+use glam::Vec4;
 
 /// `(sin x − x) / x³` in `x²` for `|x| ≤ π/4`: 4e-9 of the sine.
 const SIN: [f32; 3] = [-0.166_666_55, 0.008_332_188, -0.000_195_181];
@@ -105,6 +106,20 @@ pub fn atan2(y: f32, x: f32) -> f32 {
     angle.copysign(y)
 }
 
+/// Four angles, each as of [`atan2`], of vectors with `y ≥ 0` of which not both coordinates are 0.
+#[inline(always)]
+#[must_use]
+pub fn atan2_of_four(y: Vec4, x: Vec4) -> Vec4 {
+    let x_size = x.abs();
+    let steep = y.cmpgt(x_size);
+    let t = Vec4::select(steep, x_size, y) / Vec4::select(steep, y, x_size);
+    let (s, c) = (t * t, &ATAN);
+    let (s2, low, high) = (s * s, [s * c[1] + c[0], s * c[3] + c[2]], [s * c[5] + c[4], s * c[7] + c[6]]);
+    let angle = t + t * s * (low[0] + s2 * low[1] + s2 * s2 * (high[0] + s2 * high[1]));
+    let angle = Vec4::select(steep, FRAC_PI_2 - angle, angle);
+    Vec4::select(x.cmplt(Vec4::ZERO), PI - angle, angle)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -181,6 +196,19 @@ mod tests {
                     continue;
                 }
                 check_angle(y, x);
+            }
+        }
+    }
+
+    #[test]
+    fn four_angles_are_those_of_each() {
+        for i in 0..1 << 16 {
+            let random =
+                |j: u32| (unit_f32(hash(4 * i + j)) - 0.5) * libm::exp2f(unit_f32(hash(!(4 * i + j))) * 60.0);
+            let (x, y) = ([0, 1, 2, 3].map(random), [4, 5, 6, 7].map(|j| random(j).abs()));
+            let seen = atan2_of_four(y.into(), x.into()).to_array();
+            for k in 0..4 {
+                assert_eq!(seen[k], atan2(y[k], x[k]), "{} {}", y[k], x[k]);
             }
         }
     }

@@ -1,15 +1,6 @@
 //! The length of an arc over its chord, and how it changes.
 
-use core::ops::{Add, Mul};
-
-/// One number, or several at once.
-pub(super) trait Number:
-    Copy + Add<Output = Self> + Mul<Output = Self> + Add<f32, Output = Self> + Mul<f32, Output = Self>
-{
-}
-
-impl Number for f32 {}
-impl Number for glam::Vec4 {}
+use super::number::Number;
 
 /// Coefficients of `atan(√x) / √x` in powers of x for `x` in `[0, 1.25]`: error at most 3e-8, of the
 /// derivative at most 2.1e-6. Derived: interpolation at the Chebyshev nodes of that range.

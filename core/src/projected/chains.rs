@@ -1,7 +1,7 @@
 //! The two boundaries of a polygon, as a sweep over the azimuth meets them.
 
-use super::clip::Above;
-use super::meridian::Cut;
+use super::clip::{Above, Outline};
+use glam::DVec3;
 
 /// Edges in one direction around the zenith.
 #[derive(Debug, Clone, Copy)]
@@ -22,24 +22,24 @@ pub(super) enum Layout {
 }
 
 /// A corner that a sweep meets.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Step {
-    corner: usize,
+    pub(super) corner: u8,
     /// The ends of the edge on the other boundary, counter-clockwise in azimuth.
-    edge: [usize; 2],
+    pub(super) edge: [u8; 2],
     /// True when the corner is on the outer boundary.
-    outward: bool,
+    pub(super) outward: bool,
 }
 
 impl Layout {
     /// `None` for a polygon that rounding has turned inside out, or that has no width.
+    ///
+    /// * `n` – how many corners it has
     #[inline(always)]
-    pub(super) fn of<const N: usize>(above: &Above<N>) -> Option<Self> {
-        let corners = above.corners();
-        let n = corners.len();
+    pub(super) fn of<const N: usize>(outline: &Outline<N>, n: usize) -> Option<Self> {
         let (mut forward, mut backward) = (0_u32, 0_u32);
-        for (i, corner) in corners.iter().enumerate() {
-            let (x, rounding) = above.azimuth_and_rounding(corner, &corners[next(i, n)]);
+        for i in 0..n {
+            let (x, rounding) = outline.azimuth_and_rounding(i, next(i, n));
             forward |= u32::from(x > rounding) << i;
             backward |= u32::from(x < -rounding) << i;
         }
@@ -76,31 +76,29 @@ impl Layout {
     #[inline(always)]
     pub(super) fn first(&self, n: usize) -> Step {
         match self {
-            Self::Around(all) => Step::alone(all.at),
-            Self::Beside(outer, inner) => {
-                Step { corner: outer.at, edge: [inner.at, previous(inner.at, n)], outward: true }
-            }
+            Self::Around(all) => Step::new(all.at, [all.at; 2], true),
+            Self::Beside(outer, inner) => Step::new(outer.at, [inner.at, previous(inner.at, n)], true),
         }
     }
 
     /// The next corner in the order of azimuth.
+    ///
+    /// * `n` – how many there are
     #[inline(always)]
-    pub(super) fn advance<const N: usize>(&mut self, above: &Above<N>) -> Option<Step> {
-        let n = above.corners().len();
+    pub(super) fn advance<const N: usize>(&mut self, outline: &Outline<N>, n: usize) -> Option<Step> {
         match self {
             Self::Around(all) if all.left == 0 => None,
             Self::Around(all) => {
                 all.go(next(all.at, n));
-                Some(Step::alone(all.at))
+                Some(Step::new(all.at, [all.at; 2], true))
             }
             Self::Beside(outer, inner) if outer.left == 0 || inner.left == 0 => None,
             Self::Beside(outer, inner) => {
                 let [from, to] = [[outer.at, inner.at], [next(outer.at, n), previous(inner.at, n)]];
-                let inner_first =
-                    inner.left > 1 && (outer.left == 1 || above.azimuth_between(to[1], to[0]) > 0.0);
+                let inner_first = inner.left > 1 && (outer.left == 1 || outline.azimuth(to[1], to[0]) > 0.0);
                 let (k, chain) = if inner_first { (1, inner) } else { (0, outer) };
                 chain.go(to[k]);
-                Some(Step { corner: to[k], edge: [from[1 - k], to[1 - k]], outward: !inner_first })
+                Some(Step::new(to[k], [from[1 - k], to[1 - k]], !inner_first))
             }
         }
     }
@@ -114,9 +112,12 @@ impl Chain {
 }
 
 impl Step {
+    /// That of the first corner, alone.
+    pub(super) const FIRST: Self = Self { corner: 0, edge: [0; 2], outward: true };
+
     #[inline(always)]
-    fn alone(corner: usize) -> Self {
-        Self { corner, edge: [corner; 2], outward: true }
+    fn new(corner: usize, edge: [usize; 2], outward: bool) -> Self {
+        Self { corner: corner as u8, edge: edge.map(|i| i as u8), outward }
     }
 }
 
@@ -144,38 +145,36 @@ fn distance(a: usize, b: usize, n: usize) -> usize {
 }
 
 impl<const N: usize> Above<N> {
-    /// [`Above::azimuth`] by the corners' indices.
-    #[inline]
-    pub(super) fn azimuth_between(&self, i: usize, j: usize) -> f64 {
-        self.azimuth(&self.corners()[i], &self.corners()[j])
-    }
-
     /// The meridian at a corner.
     ///
     /// Derived: with X the cross products of azimuths, the edge from i to j has the azimuth vector of
-    /// the corner k at `(X_kj p_i + X_ik p_j) / X_ij`, and is `det(p_i, p_j, p_k) / X_ij` below it; the
-    /// determinant is the plane's times that of the places.
+    /// the corner k at `(X_kj p_i + X_ik p_j) / X_ij`, and is `det(p_i, p_j, p_k) / X_ij` above or below
+    /// it; the determinant is the plane's times that of the places. The outer end comes from the first:
+    /// its direction does not depend on `X_ij`, of which few digits may be known.
     #[inline(always)]
     pub(super) fn cut(&self, step: &Step) -> Cut {
-        let Step { corner, edge: [i, j], outward } = *step;
-        let corners = self.corners();
-        let c = &corners[corner];
-        let place = c.homogeneous();
+        let (corner, [i, j]) = (step.corner.into(), step.edge.map(usize::from));
+        let point = self.point(corner);
         if corner == i || corner == j {
-            return Cut { corner, outer: c.point, rise: 0.0, outer_place: place, inner_place: place };
+            let shares = if corner == i { [1.0, 0.0] } else { [0.0, 1.0] };
+            return Cut { outer: point, rise: 0.0, shares };
         }
-        let (a, b) = (&corners[i], &corners[j]);
-        let per_width = 1.0 / self.azimuth(a, b);
-        let wa = self.azimuth(c, b).max(0.0) * per_width;
-        let wb = self.azimuth(a, c).max(0.0) * per_width;
-        let doubled_area = (b.place - a.place).perp_dot(c.place - a.place);
-        let rise = self.volume * doubled_area.abs() * per_width;
-        let cut = a.homogeneous() * wa as f32 + b.homogeneous() * wb as f32;
-        if outward {
-            Cut { corner, outer: c.point, rise, outer_place: place, inner_place: cut }
-        } else {
-            let outer = a.point * wa + b.point * wb;
-            Cut { corner, outer, rise, outer_place: cut, inner_place: place }
-        }
+        let outline = &self.outline;
+        let per_width = 1.0 / outline.azimuth(i, j);
+        let shares = [(corner, j), (i, corner)].map(|(a, b)| outline.azimuth(a, b).max(0.0) * per_width);
+        let rise = self.volume * outline.doubled_area(i, j, corner) * per_width;
+        let outer = if step.outward { point } else { self.point(i) * shares[0] + self.point(j) * shares[1] };
+        Cut { outer, rise, shares: shares.map(|share| share as f32) }
     }
+}
+
+/// A meridian through a corner, before it is brought to scale.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Cut {
+    /// The outer end: azimuth vector, and height (m).
+    pub(super) outer: DVec3,
+    /// By how much the inner end is higher (m).
+    pub(super) rise: f64,
+    /// How much of the ends of the edge on the other boundary is in the end there.
+    pub(super) shares: [f32; 2],
 }

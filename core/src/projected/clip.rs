@@ -4,23 +4,14 @@ use super::Chart;
 use crate::geom::Frame;
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
-/// A corner of a polygon.
+/// The outline of a convex polygon in its plane, and what turns places into azimuths.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Corner {
-    /// Where it is in the plane's coordinates.
-    pub(super) place: DVec2,
-    /// Where it is in the receiver's frame.
-    pub(super) point: DVec3,
-}
-
-impl Corner {
-    const ZERO: Self = Self { place: DVec2::ZERO, point: DVec3::ZERO };
-
-    /// The place in homogeneous coordinates.
-    #[inline]
-    pub(super) fn homogeneous(&self) -> Vec3 {
-        self.place.as_vec2().extend(1.0)
-    }
+pub(super) struct Outline<const N: usize> {
+    /// The zenith in the plane's homogeneous coordinates, times the volume (m²).
+    pub(super) zenith: DVec3,
+    /// Where the corners are in the plane's coordinates.
+    places: [DVec2; N],
+    len: usize,
 }
 
 /// A convex polygon above a receiver's horizon.
@@ -29,22 +20,30 @@ impl Corner {
 /// run counter-clockwise in the plane's coordinates, do so around the zenith as well.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Above<const N: usize> {
-    pub(super) frame: Frame,
     /// The determinant of the plane's origin and axes (m³); above 0.
     pub(super) volume: f64,
-    /// The zenith in the plane's homogeneous coordinates, times the volume (m²).
-    pub(super) zenith: DVec3,
-    corners: [Corner; N],
-    len: usize,
+    pub(super) outline: Outline<N>,
+    /// The corners in the receiver's frame (m).
+    points: [DVec3; N],
 }
 
 impl<const N: usize> Above<N> {
-    /// Fewer than three corners when nothing is above the horizon, none when the receiver is in the plane.
-    #[inline]
-    pub(super) fn new(normal: Vec3, chart: &Chart, places: &[Vec2]) -> Self {
-        let (turned, volume) = (chart.volume() < 0.0, chart.volume().abs());
-        let mut frame = Frame::from_normal(normal);
-        frame.t = if turned { -frame.t } else { frame.t };
+    /// No corners.
+    #[inline(always)]
+    pub(super) fn empty() -> Self {
+        Self { volume: 0.0, outline: Outline::empty(), points: [DVec3::ZERO; N] }
+    }
+
+    /// Adds the corners at `places`, and turns the frame; none when the receiver is in the plane.
+    ///
+    /// True when all are above the horizon.
+    #[inline(always)]
+    pub(super) fn fill(&mut self, frame: &mut Frame, chart: &Chart, places: &[Vec2]) -> bool {
+        self.volume = chart.volume().abs();
+        if !(self.volume > 0.0 && self.volume < f64::INFINITY) {
+            return false;
+        }
+        frame.t = if chart.volume() < 0.0 { -frame.t } else { frame.t };
         let (s, t, n) = (frame.s.as_dvec3(), frame.t.as_dvec3(), frame.n.as_dvec3());
         let local = |v: DVec3| DVec3::new(v.dot(s), v.dot(t), v.dot(n));
         let (r, u, v) = (local(chart.origin), local(chart.u), local(chart.v));
@@ -52,84 +51,109 @@ impl<const N: usize> Above<N> {
         let pole = s.cross(t);
         let Chart { origin, u: first, v: second, .. } = *chart;
         let across = |a: DVec3, b: DVec3| pole.dot(a.cross(b));
-        let zenith = DVec3::new(across(second, origin), across(origin, first), across(first, second));
-        let mut above = Self { frame, volume, zenith, corners: [Corner::ZERO; N], len: 0 };
-        if !(volume > 0.0 && volume < f64::INFINITY) {
-            return above;
-        }
+        self.outline.zenith =
+            DVec3::new(across(second, origin), across(origin, first), across(first, second));
         let mut lowest = f64::INFINITY;
         for place in places {
             let place = place.as_dvec2();
             let point = r + u * place.x + v * place.y;
             lowest = lowest.min(point.z);
-            above.push(Corner { place, point });
+            self.push(place, point);
         }
-        if !(lowest > 0.0) {
-            above.clip();
-        }
-        above
+        lowest > 0.0
     }
 
-    /// Keeps what is above the horizon.
+    /// Keeps what is above the horizon: fewer than three corners when that is nothing.
     ///
     /// Source: Sutherland and Hodgman 1974, *Reentrant Polygon Clipping*, CACM 17(1), for one plane.
-    fn clip(&mut self) {
+    #[inline]
+    pub(super) fn clip(&mut self) {
         let whole = *self;
-        self.len = 0;
-        let Some(mut before) = whole.corners().last() else { return };
-        for here in whole.corners() {
-            let (za, zb) = (before.point.z, here.point.z);
+        self.outline.len = 0;
+        let corners = || whole.outline.places().iter().zip(&whole.points);
+        let Some((mut place_before, mut before)) = corners().next_back() else { return };
+        for (place, here) in corners() {
+            let (za, zb) = (before.z, here.z);
             if (za > 0.0) != (zb > 0.0) {
                 let t = za / (za - zb);
-                let point = before.point + (here.point - before.point) * t;
-                let place = before.place + (here.place - before.place) * t;
-                self.push(Corner { place, point: DVec3 { z: 0.0, ..point } });
+                let point = before + (here - before) * t;
+                self.push(place_before + (place - place_before) * t, DVec3 { z: 0.0, ..point });
             }
             if zb > 0.0 {
-                self.push(*here);
+                self.push(*place, *here);
             }
-            before = here;
+            (place_before, before) = (place, here);
         }
     }
 
-    #[inline]
-    fn push(&mut self, corner: Corner) {
-        if let Some(slot) = self.corners.get_mut(self.len) {
-            *slot = corner;
-            self.len += 1;
+    #[inline(always)]
+    fn push(&mut self, place: DVec2, point: DVec3) {
+        let i = self.outline.len;
+        if i < N {
+            self.outline.places[i] = place;
+            self.points[i] = point;
+            self.outline.len = i + 1;
         }
     }
 
-    /// The corners above the horizon and on it.
-    #[inline]
-    pub(super) fn corners(&self) -> &[Corner] {
-        &self.corners[..self.len]
+    /// The corner with the index `i` in the receiver's frame (m).
+    #[inline(always)]
+    pub(super) fn point(&self, i: usize) -> DVec3 {
+        self.points[i]
+    }
+}
+
+impl<const N: usize> Outline<N> {
+    /// No corners.
+    #[inline(always)]
+    pub(super) fn empty() -> Self {
+        Self { zenith: DVec3::ZERO, places: [DVec2::ZERO; N], len: 0 }
     }
 
-    /// Cross product of the azimuths of two corners, positive when `b` is counter-clockwise of `a`.
+    /// The corners above the horizon and on it, in the plane's coordinates.
+    #[inline(always)]
+    pub(super) fn places(&self) -> &[DVec2] {
+        &self.places[..self.len]
+    }
+
+    /// Cross product of the azimuths of two corners, positive when that of index `j` is
+    /// counter-clockwise of that of index `i`.
     ///
-    /// Derived: `n · (p_a × p_b)` is `det(zenith, a, b)` in the plane's homogeneous coordinates, by
+    /// Derived: `n · (p_i × p_j)` is `det(zenith, i, j)` in the plane's homogeneous coordinates, by
     /// cofactors. Rounding of the zenith's coordinates then is one of the plane's, however long, narrow
     /// and far the polygon.
-    #[inline]
-    pub(super) fn azimuth(&self, a: &Corner, b: &Corner) -> f64 {
-        self.zenith.dot(cross(a.place, b.place))
+    #[inline(always)]
+    pub(super) fn azimuth(&self, i: usize, j: usize) -> f64 {
+        self.zenith.dot(cross(self.places[i], self.places[j]))
     }
 
-    /// [`Above::azimuth`], and how far it may be off.
-    #[inline]
-    pub(super) fn azimuth_and_rounding(&self, a: &Corner, b: &Corner) -> (f64, f64) {
-        let cross = cross(a.place, b.place);
-        (self.zenith.dot(cross), ROUNDING * self.zenith.abs().dot(cross.abs()))
+    /// [`Outline::azimuth`], and how far it may be off.
+    #[inline(always)]
+    pub(super) fn azimuth_and_rounding(&self, i: usize, j: usize) -> (f64, f64) {
+        let [x, y, z] = (self.zenith * cross(self.places[i], self.places[j])).to_array();
+        (x + y + z, ROUNDING * (x.abs() + y.abs() + z.abs()))
+    }
+
+    /// The corner with the index `i` in homogeneous coordinates of the plane.
+    #[inline(always)]
+    pub(super) fn homogeneous(&self, i: u8) -> Vec3 {
+        self.places[usize::from(i)].as_vec2().extend(1.0)
+    }
+
+    /// Twice the area of the triangle between three corners.
+    #[inline(always)]
+    pub(super) fn doubled_area(&self, i: usize, j: usize, k: usize) -> f64 {
+        let first = self.places[i];
+        (self.places[j] - first).perp_dot(self.places[k] - first).abs()
     }
 }
 
 /// Cross product of two places in homogeneous coordinates.
-#[inline]
+#[inline(always)]
 fn cross(a: DVec2, b: DVec2) -> DVec3 {
     let d = b - a;
     DVec3::new(-d.y, d.x, a.perp_dot(d))
 }
 
-/// Relative rounding of [`Above::azimuth`].
+/// Relative rounding of [`Outline::azimuth`].
 const ROUNDING: f64 = 8.0 * f64::EPSILON;

@@ -1,7 +1,6 @@
 //! Four sectors at once.
 
 use super::arc::{atan_ratio, atan_ratio_and_slope};
-use crate::num;
 use glam::Vec4;
 
 /// One side each of four sectors, as in [`super::meridian::Meridian`].
@@ -31,7 +30,7 @@ pub(super) fn areas(first: &Ends, last: &Ends, pole: [Vec4; 3], to_zenith: bool)
     let mixed = da * sb + db * sa;
     let inner_sin2 = (bx * bx + by * by) * qa + (ax * ax + ay * ay) * qb - across * mixed;
     let square = qa + qb + qa * qb;
-    let length = Vec4::from((square + 1.0).to_array().map(num::sqrt));
+    let length = (square + 1.0).sqrt();
     let k_rise = mixed * 0.5 + square / (length + 1.0);
     let k_inner = k + k_rise;
     let per_k = 1.0 / k_inner;

@@ -5,8 +5,10 @@ mod cap;
 mod chains;
 mod chart;
 mod clip;
+mod cut;
 mod lanes;
 mod meridian;
+mod number;
 #[cfg(test)]
 pub(crate) mod oracle;
 mod polygon;

@@ -2,7 +2,7 @@
 
 use super::Chart;
 use super::clip::Above;
-use super::meridian::{Meridian, fraction};
+use super::meridian::{Meridian, Places, fraction};
 use super::sector::Sector;
 use super::sectors::Sectors;
 use crate::geom::Frame;
@@ -40,6 +40,17 @@ pub struct PolygonSample {
     pub place: Vec2,
 }
 
+/// Where a point was found.
+#[derive(Debug, Clone, Copy)]
+struct Found {
+    /// The index of the sector.
+    index: usize,
+    /// The sector, or half of it.
+    sector: Sector,
+    /// The projected solid angle before that (sr).
+    before: f32,
+}
+
 /// The lowest uniform that is used: the middle of the first cell, as 0 may be on the horizon itself.
 const LOWEST: f32 = 0.5 * num::UNIT_ROUND_OFF;
 
@@ -50,19 +61,33 @@ impl<const N: usize> ProjectedPolygon<N> {
     /// * `normal` – the receiver's unit normal
     /// * `chart` – the polygon's plane, seen from the receiver
     /// * `corners` – at most `N − 2`, convex, counter-clockwise in the chart's coordinates
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn new(normal: Vec3, chart: &Chart, corners: &[Vec2]) -> Option<Self> {
-        let above = Above::<N>::new(normal, chart, corners);
-        if above.corners().len() < 3 {
-            return None;
+        let mut polygon = Self::empty(normal);
+        if polygon.prepare(chart, corners) { Some(polygon) } else { None }
+    }
+
+    /// Nothing yet.
+    #[inline(always)]
+    pub(crate) fn empty(normal: Vec3) -> Self {
+        Self { frame: Frame::from_normal(normal), zenith: Vec3::ZERO, sectors: Sectors::empty() }
+    }
+
+    /// [`ProjectedPolygon::new`] in place, from nothing; false instead of `None`.
+    #[inline(always)]
+    pub(crate) fn prepare(&mut self, chart: &Chart, corners: &[Vec2]) -> bool {
+        let mut above = Above::<N>::empty();
+        if above.fill(&mut self.frame, chart, corners) {
+            // Their number as the caller knows it: as a constant, for all but polygons.
+            self.sectors.fill(&above, corners.len());
+        } else {
+            self.sectors.fill_clipped(&mut above);
         }
-        let mut polygon = Self { frame: above.frame, zenith: Vec3::ZERO, sectors: Sectors::EMPTY };
-        polygon.sectors.fill(&above);
-        let Sectors { total, unit, .. } = polygon.sectors;
-        polygon.zenith = (above.zenith * (f64::from(unit) / above.volume)).as_vec3();
+        let Sectors { total, unit, .. } = self.sectors;
+        self.zenith = (above.outline.zenith * (f64::from(unit) / above.volume)).as_vec3();
         // More than the hemisphere is rounding, of numbers too far apart for double precision.
-        if total > 0.0 && total < num::PI * 1.000_1 { Some(polygon) } else { None }
+        total > 0.0 && total < num::PI * 1.000_1
     }
 
     /// The projected solid angle (sr), above 0 and at most π.
@@ -92,13 +117,14 @@ impl<const N: usize> ProjectedPolygon<N> {
         if sector.is_wide() {
             (sector, area, whole) = sector.half_at(area);
         }
-        let meridian = sector.at(sector.fraction_at(area, whole));
+        let (meridian, sides) = sector.at(sector.fraction_at(area, whole));
         let above = sector.height_of(&meridian, u[1].max(LOWEST));
         let v = meridian.outer + Vec3::Z * above;
+        let places = self.sectors.places_between(i, sides);
         let place = if self.sectors.to_zenith {
-            meridian.outer_place + self.zenith * above
+            places.outer + self.zenith * above
         } else {
-            meridian.place(above)
+            places.at(above, meridian.rise)
         };
         let length = num::sqrt(v.length_squared());
         let distance = length / place.z * self.sectors.unit;
@@ -130,12 +156,12 @@ impl<const N: usize> ProjectedPolygon<N> {
     pub fn invert(&self, place: Vec2) -> [f32; 2] {
         let place = place.extend(1.0);
         self.invert_at(
-            |end| self.zenith.dot(end.outer_place.cross(place)),
-            |meridian| {
+            |_, places| self.zenith.dot(places.outer.cross(place)),
+            |meridian, places| {
                 if self.sectors.to_zenith {
-                    self.height_toward_zenith(meridian, place)
+                    self.height_toward_zenith(places.outer, place)
                 } else {
-                    meridian.height(place)
+                    places.height(place, meridian.rise)
                 }
             },
         )
@@ -148,8 +174,8 @@ impl<const N: usize> ProjectedPolygon<N> {
         let v = self.frame.to_local(wi);
         let across = v.truncate();
         self.invert_at(
-            |end| end.outer.truncate().perp_dot(across),
-            |meridian| {
+            |end, _| end.outer.truncate().perp_dot(across),
+            |meridian, _| {
                 let scale = num::sqrt(meridian.outer.truncate().length_squared() / across.length_squared());
                 // The zenith is as high as anything that has a square.
                 let above = (v.z * scale.min(1.0e15) - meridian.outer.z).max(0.0);
@@ -162,39 +188,52 @@ impl<const N: usize> ProjectedPolygon<N> {
     /// above the outer end of its own.
     ///
     /// * `beyond` – cross product of both azimuths, up to a factor
-    fn invert_at(&self, beyond: impl Fn(&Meridian) -> f32, height: impl Fn(&Meridian) -> f32) -> [f32; 2] {
-        let (sector, before) = self.locate(&beyond);
-        let from_first = beyond(&sector.first).max(0.0);
-        let to_last = (-beyond(&sector.last)).max(0.0);
+    fn invert_at(
+        &self,
+        beyond: impl Fn(&Meridian, &Places) -> f32,
+        height: impl Fn(&Meridian, &Places) -> f32,
+    ) -> [f32; 2] {
+        let found = self.locate(&beyond);
+        let to = |t| {
+            let (meridian, sides) = found.sector.at(t);
+            (meridian, self.sectors.places_between(found.index, sides))
+        };
+        let ((first, at_first), (last, at_last)) = (to(0.0), to(1.0));
+        let from_first = beyond(&first, &at_first).max(0.0);
+        let to_last = (-beyond(&last, &at_last)).max(0.0);
         let sum = from_first + to_last;
         let t = if sum > 0.0 { from_first / sum } else { 0.0 };
-        let meridian = sector.at(t);
-        let share = (before + sector.area_to(t)) / self.sectors.total;
-        [share, sector.share_below(&meridian, height(&meridian))].map(num::clamp_unit)
+        let (meridian, places) = to(t);
+        let share = (found.before + found.sector.area_to(t)) / self.sectors.total;
+        [share, found.sector.share_below(&meridian, height(&meridian, &places))].map(num::clamp_unit)
     }
 
-    /// The sector in which a point is, half of it when it is wide, and the area before that (sr).
-    fn locate(&self, beyond: impl Fn(&Meridian) -> f32) -> (Sector, f32) {
-        let is_before = |end: &Meridian| beyond(end) <= 0.0;
-        let is_inside =
-            |i: &usize| beyond(&self.sectors.meridian(*i)) >= 0.0 && is_before(&self.sectors.meridian(i + 1));
+    /// The sector in which a point is, half of it when it is wide.
+    fn locate(&self, beyond: impl Fn(&Meridian, &Places) -> f32) -> Found {
+        let side = |i| beyond(&self.sectors.meridian(i), &self.sectors.places(i));
+        let is_inside = |i: &usize| side(*i) >= 0.0 && side(i + 1) <= 0.0;
         let areas = self.sectors.areas();
         let parts = || (0..areas.len()).filter(|i| areas[*i] > 0.0);
         // In the last one at the latest, as far as rounding goes.
-        let i = parts().find(is_inside).or_else(|| parts().next_back()).unwrap_or(0);
-        let before = areas[..i].iter().sum();
-        let sector = self.sectors.get(i);
+        let index = parts().find(is_inside).or_else(|| parts().next_back()).unwrap_or(0);
+        let before = areas[..index].iter().sum();
+        let sector = self.sectors.get(index);
         if !sector.is_wide() {
-            return (sector, before);
+            return Found { index, sector, before };
         }
         let [first, last] = sector.halves();
-        if is_before(&first.last) { (first, before) } else { (last, before + first.area_to(1.0)) }
+        let (middle, sides) = first.at(1.0);
+        if beyond(&middle, &self.sectors.places_between(index, sides)) <= 0.0 {
+            Found { index, sector: first, before }
+        } else {
+            Found { index, sector: last, before: before + first.area_to(1.0) }
+        }
     }
 
     /// The height above the outer end of a place between there and the zenith.
     #[inline]
-    fn height_toward_zenith(&self, meridian: &Meridian, place: Vec3) -> f32 {
-        let f = fraction(place, meridian.outer_place, self.zenith).min(num::ONE_MINUS_EPSILON);
-        f * meridian.outer_place.z / ((1.0 - f) * self.zenith.z)
+    fn height_toward_zenith(&self, outer: Vec3, place: Vec3) -> f32 {
+        let f = fraction(place, outer, self.zenith).min(num::ONE_MINUS_EPSILON);
+        f * outer.z / ((1.0 - f) * self.zenith.z)
     }
 }

@@ -3,7 +3,7 @@
 use super::arc::{atan_ratio, atan_ratio_and_slope};
 use super::meridian::Meridian;
 use crate::num;
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
 /// A piece between two meridians and two great circles, or the zenith instead of the inner circle.
 ///
@@ -15,6 +15,8 @@ use glam::Vec3;
 pub(super) struct Sector {
     pub(super) first: Meridian,
     pub(super) last: Meridian,
+    /// How much of the sides of the whole piece is in those of this one.
+    sides: [Vec2; 2],
     /// The cross product of the outer ends; its z is that of the azimuth vectors.
     pole: Vec3,
     /// True when it reaches up to the zenith.
@@ -31,18 +33,19 @@ impl Sector {
     /// The piece from `first` counter-clockwise to `last`.
     ///
     /// * `pole` – cross product of the outer ends; of their azimuth vectors, its z, above 0
-    #[inline]
+    #[inline(always)]
     pub(super) fn new(first: Meridian, last: Meridian, pole: Vec3, to_zenith: bool) -> Self {
         let (a, b) = (first.outer, last.outer);
         let (ea, eb) = (a.truncate(), b.truncate());
         let (qa, qb) = (first.square_rise(), last.square_rise());
         let mixed = first.rise * last.height_sum() + last.rise * first.height_sum();
         let inner_sin2 = eb.length_squared() * qa + ea.length_squared() * qb - ea.dot(eb) * mixed;
-        Self { first, last, pole, to_zenith, cos: a.dot(b), sin2: pole.length_squared(), inner_sin2 }
+        let sides = [Vec2::X, Vec2::Y];
+        Self { first, last, sides, pole, to_zenith, cos: a.dot(b), sin2: pole.length_squared(), inner_sin2 }
     }
 
     /// True when the outer arc is much beyond a right angle.
-    #[inline]
+    #[inline(always)]
     pub(super) fn is_wide(&self) -> bool {
         self.cos < WIDE
     }
@@ -60,7 +63,12 @@ impl Sector {
         let both = self.first.toward(&self.last, 0.5).times(2.0 / length);
         let middle = Meridian { outer: Vec3 { z: both.outer.z, ..bisector }, ..both };
         let half = |first, last| Self::new(first, last, self.pole / length, self.to_zenith);
-        [half(self.first, middle), half(middle, self.last)]
+        let mut halves = [half(self.first, middle), half(middle, self.last)];
+        let [a, b] = self.sides;
+        let both = (a + b) / length;
+        halves[0].sides = [a, both];
+        halves[1].sides = [both, b];
+        halves
     }
 
     /// Projected solid angle of a wide piece (sr).
@@ -78,17 +86,19 @@ impl Sector {
         if area < middle { (first, area, middle) } else { (last, area - middle, last.area_to(1.0)) }
     }
 
-    /// The meridian at the fraction `t` of the chords.
-    #[inline]
-    pub(super) fn at(&self, t: f32) -> Meridian {
-        self.first.toward(&self.last, t)
+    /// The meridian at the fraction `t` of the chords, and how much of the sides of the whole piece is
+    /// in it.
+    #[inline(always)]
+    pub(super) fn at(&self, t: f32) -> (Meridian, Vec2) {
+        let [a, b] = self.sides;
+        (self.first.toward(&self.last, t), a * (1.0 - t) + b * t)
     }
 
     /// The height above the outer end below which the share `v` of the meridian's `sin² θ` lies.
     ///
     /// Derived: `sin² θ` is the azimuth vector's square over that of the whole vector, Q, so `1 / Q`
     /// is even between both ends.
-    #[inline]
+    #[inline(always)]
     pub(super) fn height_of(&self, meridian: &Meridian, v: f32) -> f32 {
         let outer2 = meridian.outer.length_squared();
         let square = if self.to_zenith {
@@ -122,12 +132,12 @@ impl Sector {
     /// vectors and N = |p_a × p_b|, the part below is `½ X θ / N` (Lambert 1760). By
     /// `tan(θ/2) = N / K`, `K = p_a·p_b + |p_a| |p_b|`, that is `X H(N² / K²) / K`, and the
     /// difference of two such terms is one of divided differences.
-    #[inline]
+    #[inline(always)]
     pub(super) fn area_to(&self, t: f32) -> f32 {
         self.area_of(&self.part(t))
     }
 
-    #[inline]
+    #[inline(always)]
     fn part(&self, t: f32) -> Part {
         let (cos, sin2) = (1.0 + t * (self.cos - 1.0), t * t * self.sin2);
         let (da, sa) = (self.first.rise, self.first.height_sum());
@@ -136,7 +146,7 @@ impl Sector {
         Part { t, cos, sin2, outer2: cos * cos + sin2, rise, height_sum, square: rise * height_sum }
     }
 
-    #[inline]
+    #[inline(always)]
     fn area_of(&self, part: &Part) -> f32 {
         let Part { t, cos, sin2, outer2, rise, height_sum, square: qt } = *part;
         let outer = num::sqrt(outer2);
@@ -158,7 +168,7 @@ impl Sector {
     }
 
     /// Derivative of [`Sector::area_to`], the area of the strip there; and half of its own over it.
-    #[inline]
+    #[inline(always)]
     fn strip(&self, part: &Part) -> (f32, f32) {
         let Part { t, outer2, rise, height_sum, square, .. } = *part;
         // Half the derivatives of the squares.
@@ -180,7 +190,7 @@ impl Sector {
     /// * `whole` – that of the whole (sr)
     ///
     /// Halley's method on [`Sector::area_to`] within a shrinking bracket.
-    #[inline]
+    #[inline(always)]
     pub(super) fn fraction_at(&self, area: f32, whole: f32) -> f32 {
         let mut t = self.first_guess(area / whole, whole);
         let (mut low, mut high) = (0.0, 1.0);
@@ -213,7 +223,7 @@ impl Sector {
     ///
     /// Source: Gregory and Delbourgo 1982, *Piecewise Rational Quadratic Interpolation to Monotonic
     /// Data*, IMA J. Numer. Anal. 2(2). Derived: its inverse.
-    #[inline]
+    #[inline(always)]
     fn first_guess(&self, s: f32, whole: f32) -> f32 {
         let r = 1.0 - s;
         let per_whole = 0.5 * self.pole.z / whole;

@@ -1,12 +1,12 @@
 //! All sectors of a polygon.
 
-use super::chains::Layout;
-use super::clip::Above;
+use super::chains::{Cut, Layout, Step};
+use super::clip::{Above, Outline};
 use super::lanes::{self, Ends};
-use super::meridian::{Cut, Meridian};
+use super::meridian::{Meridian, Places};
 use super::sector::{Sector, WIDE};
 use crate::num;
-use glam::{DVec3, Vec3, Vec4};
+use glam::{DVec3, Vec2, Vec3, Vec4};
 
 /// The sectors of a polygon, in the order of azimuth; `N − 1` at most.
 ///
@@ -28,7 +28,24 @@ pub(super) struct Sectors<const N: usize> {
     /// Their sides: the sector of index i is between those of i and i + 1.
     outer: [[f32; N]; 3],
     rises: [f32; N],
-    places: [[Vec3; 2]; N],
+    /// What the places of the sides are made of.
+    outline: Outline<N>,
+    sources: [Source; N],
+}
+
+/// Where a side comes from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Source {
+    step: Step,
+    /// How much of the ends of the step's edge is in the end of the side there.
+    shares: [f32; 2],
+    /// What brings places to scale, and what is kept of the rise.
+    weight: f32,
+    kept: f32,
+}
+
+impl Source {
+    const NONE: Self = Self { step: Step::FIRST, shares: [0.0; 2], weight: 0.0, kept: 0.0 };
 }
 
 /// The rise beyond which an inner end is as good as at the zenith: what is left out there is less
@@ -45,67 +62,81 @@ struct Reached {
 
 impl<const N: usize> Sectors<N> {
     /// None.
-    pub(super) const EMPTY: Self = Self {
-        to_zenith: false,
-        len: 0,
-        unit: 0.0,
-        total: 0.0,
-        areas: [0.0; N],
-        poles: [[0.0; N]; 3],
-        outer: [[0.0; N]; 3],
-        rises: [0.0; N],
-        places: [[Vec3::ZERO; 2]; N],
-    };
+    #[inline(always)]
+    pub(super) fn empty() -> Self {
+        Self {
+            to_zenith: false,
+            len: 0,
+            unit: 0.0,
+            total: 0.0,
+            areas: [0.0; N],
+            poles: [[0.0; N]; 3],
+            outer: [[0.0; N]; 3],
+            rises: [0.0; N],
+            outline: Outline::empty(),
+            sources: [Source::NONE; N],
+        }
+    }
 
     /// Adds those of a polygon; none when rounding has turned it inside out, or it has no width.
+    ///
+    /// * `n` – how many corners it has
     #[inline(always)]
-    pub(super) fn fill(&mut self, above: &Above<N>) {
-        if let Some(layout) = Layout::of(above) {
+    pub(super) fn fill(&mut self, above: &Above<N>, n: usize) {
+        if let Some(layout) = Layout::of(&above.outline, n) {
             self.to_zenith = layout.is_around();
-            self.sweep(above, layout);
+            self.outline = above.outline;
+            self.sweep(above, layout, n);
             self.measure();
         }
     }
 
+    /// Adds those of a polygon that may reach below the horizon.
+    #[inline(never)]
+    pub(super) fn fill_clipped(&mut self, above: &mut Above<N>) {
+        above.clip();
+        let n = above.outline.places().len();
+        if n >= 3 {
+            self.fill(above, n);
+        }
+    }
+
     #[inline(always)]
-    fn sweep(&mut self, above: &Above<N>, mut layout: Layout) {
-        let n = above.corners().len();
-        let cut = above.cut(&layout.first(n));
-        let scale = cut.scale();
-        let unit = 1.0 / scale;
-        let mut before = Reached { corner: cut.corner, outer: cut.outer * scale, scale };
+    fn sweep(&mut self, above: &Above<N>, mut layout: Layout, n: usize) {
+        let outline = &above.outline;
+        let mut before = self.put(0, above, &layout.first(n), 1.0);
+        let unit = 1.0 / before.scale;
         self.unit = unit as f32;
-        self.put(0, &cut, &before, 1.0);
         for i in 0..N - 1 {
-            let Some(step) = layout.advance(above) else { break };
-            let cut = above.cut(&step);
-            let scale = cut.scale();
-            let here = Reached { corner: cut.corner, outer: cut.outer * scale, scale };
-            let width = above.azimuth_between(before.corner, here.corner);
+            let Some(step) = layout.advance(outline, n) else { break };
+            let here = self.put(i + 1, above, &step, unit);
+            let width = outline.azimuth(before.corner, here.corner);
             if width > 0.0 {
-                let z = width * before.scale * scale;
+                let z = width * before.scale * here.scale;
                 let pole = DVec3 { z, ..before.outer.cross(here.outer) };
                 for (values, value) in self.poles.iter_mut().zip(pole.as_vec3().to_array()) {
                     values[i] = value;
                 }
             }
             self.len = i + 1;
-            self.put(i + 1, &cut, &here, (scale * unit) as f32);
             before = here;
         }
     }
 
-    /// Stores a side.
+    /// Stores a side; the first one sets the unit.
     #[inline(always)]
-    fn put(&mut self, i: usize, cut: &Cut, reached: &Reached, weight: f32) {
-        for (values, value) in self.outer.iter_mut().zip(reached.outer.as_vec3().to_array()) {
+    fn put(&mut self, i: usize, above: &Above<N>, step: &Step, unit: f64) -> Reached {
+        let Cut { outer, rise, shares } = above.cut(step);
+        let scale = 1.0 / num::sqrt_in_double(outer.length_squared());
+        let (outer, rise) = (outer * scale, rise * scale);
+        for (values, value) in self.outer.iter_mut().zip(outer.as_vec3().to_array()) {
             values[i] = value;
         }
-        let rise = cut.rise * reached.scale;
         let kept = if rise > HIGH { HIGH / rise } else { 1.0 };
-        let inner_place = cut.outer_place.lerp(cut.inner_place, kept as f32);
         self.rises[i] = (rise * kept) as f32;
-        self.places[i] = [cut.outer_place * weight, inner_place * weight];
+        let weight = if i == 0 { 1.0 } else { (scale * unit) as f32 };
+        self.sources[i] = Source { step: *step, shares, weight, kept: kept as f32 };
+        Reached { corner: step.corner.into(), outer, scale }
     }
 
     /// Works out the areas.
@@ -160,15 +191,34 @@ impl<const N: usize> Sectors<N> {
     }
 
     /// The side with the index `i`.
-    #[inline]
+    #[inline(always)]
     pub(super) fn meridian(&self, i: usize) -> Meridian {
         let [x, y, z] = self.outer.each_ref().map(|o| o[i]);
-        let [outer_place, inner_place] = self.places[i];
-        Meridian { outer: Vec3::new(x, y, z), rise: self.rises[i], outer_place, inner_place }
+        Meridian { outer: Vec3::new(x, y, z), rise: self.rises[i] }
+    }
+
+    /// Where the side with the index `i` is.
+    #[inline(always)]
+    pub(super) fn places(&self, i: usize) -> Places {
+        let Source { step, shares: [a, b], weight, kept } = self.sources[i];
+        let here = self.outline.homogeneous(step.corner);
+        let [first, last] = step.edge.map(|i| self.outline.homogeneous(i));
+        let there = first * a + last * b;
+        let (outer, inner) = if step.outward { (here, there) } else { (there, here) };
+        Places { outer: outer * weight, inner: outer.lerp(inner, kept) * weight }
+    }
+
+    /// Where a meridian of the sector with the index `i` is.
+    ///
+    /// * `sides` – how much of the two sides of the sector is in it
+    #[inline(always)]
+    pub(super) fn places_between(&self, i: usize, sides: Vec2) -> Places {
+        let (a, b) = (self.places(i), self.places(i + 1));
+        Places { outer: a.outer * sides.x + b.outer * sides.y, inner: a.inner * sides.x + b.inner * sides.y }
     }
 
     /// The sector with the index `i`.
-    #[inline]
+    #[inline(always)]
     pub(super) fn get(&self, i: usize) -> Sector {
         let pole = self.poles.each_ref().map(|p| p[i]).into();
         Sector::new(self.meridian(i), self.meridian(i + 1), pole, self.to_zenith)

@@ -56,13 +56,13 @@ impl Sphere {
     }
 
     /// How far outside the surface a point is (m); negative inside. `(d² − r²) / (d + r)` with the
-    /// squares summed exactly, so that a millionth of the radius is still known.
+    /// squares in double precision, where they are exact: a millionth of the radius is still known.
     #[inline]
     #[must_use]
     pub fn clearance(&self, point: Vec3) -> f32 {
         let v = self.centre - point;
-        let power = num::sum_of_products([v.x, v.y, v.z, self.radius], [v.x, v.y, v.z, -self.radius]);
-        power / (v.length() + self.radius)
+        let power = v.as_dvec3().length_squared() - f64::from(self.radius) * f64::from(self.radius);
+        (power / f64::from(v.length() + self.radius)) as f32
     }
 
     /// The surface point in the outward unit direction `n` from the centre.

@@ -55,7 +55,7 @@ impl Triangle {
     }
 
     /// The point with barycentric coordinates `1 − b1 − b2`, `b1`, `b2`.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn point(&self, b1: f32, b2: f32) -> SurfacePoint {
         let [a, b, c] = self.corners();

@@ -1,6 +1,6 @@
 //! Rectangles and triangles against double precision, over distances, angles, aspects and scales.
 
-use super::{RectanglePlace, SphericalRectangle, SphericalTriangle};
+use super::{Apex, Corner, RectanglePlace, SphericalRectangle, SphericalTriangle};
 use crate::num::{TAU, hash, hash2, unit_f32};
 use glam::{DVec3, Vec3};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3};
@@ -210,7 +210,10 @@ fn triangles_have_their_solid_angle() {
     for (corners, from) in triangles() {
         let (exact, _) = triangle_truth(&corners, from, None);
         if exact > 0.0 {
-            let seen = super::triangle_solid_angle(from, &corners);
+            let apex = Apex::new(from, corners[0]);
+            let [a, b] = [1, 2].map(|i| Corner::new(&apex, corners[i]));
+            let [sin, cos] = super::half_solid_angle(&apex, &a, &b);
+            let seen = 2.0 * crate::num::atan2(sin, cos);
             let error = (f64::from(seen) / exact - 1.0).abs();
             assert!(error < 1e-6, "{seen} instead of {exact} sr: {corners:?} {from}");
         }

@@ -8,5 +8,5 @@ mod triangle;
 
 pub use rectangle::{RectanglePlace, SphericalRectangle};
 pub(crate) use slab::{FromEnd, Span, Sweep};
-pub(crate) use triangle::triangle_solid_angle;
+pub(crate) use triangle::{Apex, Corner, half_solid_angle};
 pub use triangle::{SphericalTriangle, TrianglePlace};

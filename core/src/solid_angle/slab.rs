@@ -5,11 +5,15 @@
 //! distributed is the choice of a small table; the density is exact whatever the table holds.
 
 use crate::num;
+use glam::Vec4;
 
-/// Intervals of a sweep's table. With 8, the relative variance of the solid angle is 1e-4 for a
-/// disk five radii away, up to 8e-3 for one that is near, 5e-5 for a tube alongside; up to 0.4 for a
-/// tube that is seen along its wall, from a fiftieth of its radius off it and half a radius before it.
-const INTERVALS: usize = 8;
+/// Intervals of a sweep's table: as many as four lanes fill on either side.
+///
+/// The relative variance of the solid angle is 3e-4 for a disk five radii away, up to 1e-2 for one that
+/// is near and 2e-2 for one that is touched at the rim; 0.1 for an ellipse of aspect 10 that is all but
+/// touched; 5e-5 for a tube alongside; 0.3 for a tube that is seen along its wall, from a fiftieth of its
+/// radius off it and half a radius before it. Two intervals more would halve the small ones.
+const INTERVALS: usize = 6;
 
 /// A part of a line, parallel to the axis, as seen from the receiver: one value of `α`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,6 +56,16 @@ impl Span {
     pub(crate) fn extent(&self) -> f32 {
         let (span, _) = self.turned();
         span.sines(span.length)
+    }
+
+    /// Extents in `h` of four spans, by their starts, lengths and distances (m).
+    #[inline]
+    pub(crate) fn extents(x0: Vec4, length: Vec4, t: Vec4) -> Vec4 {
+        let (x1, tt) = (x0 + length, t * t);
+        let (r0, r1) = (num::sqrt_of_four(x0 * x0 + tt), num::sqrt_of_four(x1 * x1 + tt));
+        let along = x0 * x1;
+        let beside = (t / r0) * (t / r1) * length * ((r0 + r1) / (r0 * r1 + tt + along));
+        Vec4::select(along.cmpgt(Vec4::ZERO), beside, x1 / r1 - x0 / r0)
     }
 
     /// The point with the share `u` of the extent before it: its offset from the foot (m), and the
@@ -106,63 +120,42 @@ pub(crate) struct Sweep {
     half: f32,
     /// Density over an interval at its ends, as a share of the whole.
     density: [f32; INTERVALS + 1],
+    /// Shares of the first and the last interval.
+    outer: [f32; 2],
     /// How the density ends.
     ends: [End; 2],
 }
 
 impl Sweep {
-    /// What is there before anything is tabulated.
-    pub(crate) const EMPTY: Self =
-        Self { half: 0.0, density: [0.0; INTERVALS + 1], ends: [End { round: 0.0 }; 2] };
+    /// Where a light is tabulated, counted from an end: halfway through the first interval, and at its
+    /// inner nodes up to the middle.
+    ///
+    /// * `half` – half of the width of the sweep
+    #[inline]
+    pub(crate) fn turns(half: f32) -> Vec4 {
+        Vec4::new(0.5 * STEP, STEP, 2.0 * STEP, 3.0 * STEP) * half
+    }
 
     /// Tabulates what is seen; `None` when that is nothing.
     ///
-    /// * `half` – half of the width of the sweep
-    /// * `seen` – solid angle per turn
+    /// * `seen` – solid angle per turn at [`Sweep::turns`] from the low and from the high end
     #[inline]
-    pub(crate) fn new(half: f32, seen: impl Fn(FromEnd) -> f32) -> Option<Self> {
-        let at = |place: f32, low: bool| seen(FromEnd { turn: half * (STEP * place), low });
-        let mut density = [0.0; INTERVALS + 1];
-        for (i, d) in density.iter_mut().enumerate().take(INTERVALS).skip(1) {
-            let low = i <= MIDDLE;
-            *d = at(if low { i } else { INTERVALS - i } as f32, low);
-        }
-        Self::from_values(half, density, [at(0.5, true), at(0.5, false)])
-    }
-
-    /// The same for a light of which both sides look alike.
-    ///
-    /// * `seen` – solid angle per turn, counted from an end
-    #[inline]
-    pub(crate) fn symmetric(half: f32, seen: impl Fn(f32) -> f32) -> Option<Self> {
-        let at = |place: f32| seen(half * (STEP * place));
-        let mut density = [0.0; INTERVALS + 1];
-        for (i, d) in density.iter_mut().enumerate().take(MIDDLE + 1).skip(1) {
-            *d = at(i as f32);
-        }
-        for i in 1..MIDDLE {
-            density[INTERVALS - i] = density[i];
-        }
-        Self::from_values(half, density, [at(0.5); 2])
-    }
-
-    /// * `density` – at the inner nodes
-    /// * `halfway` – in the middle of the first and the last interval
-    #[inline]
-    fn from_values(half: f32, mut density: [f32; INTERVALS + 1], halfway: [f32; 2]) -> Option<Self> {
-        let next = [density[1], density[INTERVALS - 1]];
-        let ends = [End::new(halfway[0] / next[0]), End::new(halfway[1] / next[1])];
-        // One that does not fall as a rim does goes on as a line.
-        let is_abrupt = |i: usize| halfway[i] > ABRUPT * next[i];
-        let line = |i: usize| if is_abrupt(i) { 2.0 * halfway[i] - next[i] } else { 0.0 };
-        (density[0], density[INTERVALS]) = (line(0), line(1));
-        let mut sweep = Self { half, density, ends };
-        let scale = 1.0 / (0..INTERVALS).map(|i| sweep.mass(i)).sum::<f32>();
+    pub(crate) fn new(half: f32, [low, high]: [Vec4; 2]) -> Option<Self> {
+        let (first, last) = (End::new(low.x / low.y), End::new(high.x / high.y));
+        let (at_first, at_last) = (first.line(low.x, low.y), last.line(high.x, high.y));
+        let outer = [(at_first + low.y) * first.mean(), (at_last + high.y) * last.mean()];
+        let inner = 0.5 * (low.y + high.y) + (low.z + low.w + high.z);
+        let scale = 1.0 / (outer[0] + outer[1] + inner);
         if !(half > 0.0 && scale > 0.0 && scale < f32::INFINITY) {
             return None;
         }
-        sweep.density = density.map(|d| d * scale);
-        Some(sweep)
+        let (low, high) = (low * scale, high * scale);
+        Some(Self {
+            half,
+            density: [at_first * scale, low.y, low.z, low.w, high.z, high.y, at_last * scale],
+            outer: [outer[0] * scale, outer[1] * scale],
+            ends: [first, last],
+        })
     }
 
     /// Half of the width of the sweep.
@@ -174,18 +167,22 @@ impl Sweep {
     /// How the density ends in an interval at an end; `None` elsewhere, and where it ends as a line.
     #[inline]
     fn end(&self, i: usize) -> Option<End> {
-        match i {
-            0 if self.density[0] == 0.0 => Some(self.ends[0]),
-            _ if i == INTERVALS - 1 && self.density[INTERVALS] == 0.0 => Some(self.ends[1]),
-            _ => None,
-        }
+        let end = match i {
+            0 => self.ends[0],
+            _ if i == INTERVALS - 1 => self.ends[1],
+            _ => return None,
+        };
+        (!end.abrupt).then_some(end)
     }
 
     /// Share of an interval.
     #[inline]
     fn mass(&self, i: usize) -> f32 {
-        let sum = self.density[i] + self.density[i + 1];
-        self.end(i).map_or(0.5 * sum, |end| sum / end.density(1.0))
+        match i {
+            0 => self.outer[0],
+            _ if i == INTERVALS - 1 => self.outer[1],
+            _ => 0.5 * (self.density[i] + self.density[i + 1]),
+        }
     }
 
     /// Draws a turn, counted from the nearer end.
@@ -247,22 +244,36 @@ impl Sweep {
     }
 }
 
-/// A density over `t` in `[0, 1]`: the blend of a constant and of the root `3/2 √t`.
+/// A density over `t` in `[0, 1]`: the blend of a constant and of the root `3/2 √t`; or a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct End {
     /// Share of the root.
     round: f32,
+    /// Whether it is a line: it does not fall as a rim does.
+    abrupt: bool,
 }
 
 impl End {
-    /// * `ratio` – of the value halfway to that at 1: 1 for an abrupt end, `√(15/28)` for a circle's
-    ///   chords in the last eighth of its width
+    /// * `ratio` – of the value halfway to that at 1: 1 for an abrupt end, [`CIRCLE`] for a circle
     ///
     /// From halfway on it is the root alone: at a rim, what remains of the constant would let the
     /// light's density grow beyond all bounds.
+    #[inline]
     fn new(ratio: f32) -> Self {
-        let circle = num::sqrt(15.0 / 28.0);
-        Self { round: (2.0 * (1.0 - ratio) / (1.0 - circle)).clamp(0.0, 1.0) }
+        const PER_RATIO: f32 = 2.0 / (1.0 - CIRCLE);
+        Self { round: num::clamp((1.0 - ratio) * PER_RATIO, 0.0, 1.0), abrupt: ratio > ABRUPT }
+    }
+
+    /// Where the line begins; 0 if it is none.
+    #[inline]
+    fn line(&self, halfway: f32, next: f32) -> f32 {
+        if self.abrupt { 2.0 * halfway - next } else { 0.0 }
+    }
+
+    /// The mean, in units of the sum of both ends.
+    #[inline]
+    fn mean(&self) -> f32 {
+        if self.abrupt { 0.5 } else { 1.0 / self.density(1.0) }
     }
 
     #[inline]
@@ -301,12 +312,15 @@ pub(crate) struct FromEnd {
     pub(crate) low: bool,
 }
 
+/// `√(11/20)`: a circle's chord a twelfth of its width from the edge, over that at a sixth.
+const CIRCLE: f32 = 0.741_619_8;
+
 /// Width of an interval, for a sweep of 2.
 const STEP: f32 = 2.0 / INTERVALS as f32;
 
 /// From which ratio of the value halfway through the last interval to that before it a light ends
-/// abruptly. The angle per turn alone makes it 0.88 at a right angle; a circle's rim, 0.73.
-const ABRUPT: f32 = 0.86;
+/// abruptly. The angle per turn alone makes it 0.85 at a right angle; a circle's rim, 0.74.
+const ABRUPT: f32 = 0.82;
 
 /// Intervals on either side.
 const MIDDLE: usize = INTERVALS / 2;

@@ -56,69 +56,81 @@ pub struct SphericalTriangle {
     base: [f64; 2],
 }
 
-/// The corners relative to a receiver.
-struct Relative {
-    /// From the receiver to the first corner, and from there to the others.
+/// A corner that others are measured from.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Apex {
+    corner: DVec3,
+    from: DVec3,
+    /// From the receiver to the corner: way (m), direction and distance (m).
     origin: DVec3,
-    edges: [DVec3; 2],
-    /// Directions and distances.
-    v: [DVec3; 3],
-    l: [f64; 3],
-    /// From the first corner to the second and third, or from the receiver to them, whichever is
-    /// shorter and so has lost less: all that counts is the part across the first direction.
-    ways: [DVec3; 2],
+    v: DVec3,
+    l: f64,
 }
 
-impl Relative {
-    #[inline]
-    fn new(from: Vec3, corners: &[Vec3; 3]) -> Self {
-        let [a, b, c] = corners.map(|c| c.as_dvec3());
-        let from = from.as_dvec3();
+impl Apex {
+    #[inline(always)]
+    pub(crate) fn new(from: Vec3, corner: Vec3) -> Self {
+        let (from, corner) = (from.as_dvec3(), corner.as_dvec3());
+        let origin = corner - from;
+        let l = origin.length();
+        Self { corner, from, origin, v: origin * (1.0 / l), l }
+    }
+}
+
+/// Another corner, as triangles of the same apex share it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Corner {
+    /// From the apex (m).
+    edge: DVec3,
+    /// Direction and distance (m) from the receiver.
+    v: DVec3,
+    l: f64,
+    /// From the apex or from the receiver, whichever is shorter and so has lost less (m): all that counts
+    /// is the part across the apex's direction.
+    way: DVec3,
+}
+
+impl Corner {
+    #[inline(always)]
+    pub(crate) fn new(apex: &Apex, corner: Vec3) -> Self {
+        let corner = corner.as_dvec3();
         // Not from the receiver's distances, which far from a needle have lost its width.
-        let (p, edges) = ([a - from, b - from, c - from], [b - a, c - a]);
-        let l = p.map(DVec3::length);
-        let ways = [shorter(edges[0], p[1]), shorter(edges[1], p[2])];
-        Self { origin: p[0], edges, v: [p[0] / l[0], p[1] / l[1], p[2] / l[2]], l, ways }
-    }
-
-    /// Volume of the unit corners.
-    #[inline]
-    fn volume(&self) -> f64 {
-        self.v[0].dot(self.ways[0].cross(self.ways[1])).abs() / (self.l[1] * self.l[2])
-    }
-
-    /// `1 + Σ cos` as `(vᵢ + vₖ)·(vⱼ + vₖ)`. In a needle's plane the first and second are opposite to
-    /// the third; their sums are small, and so is what they lose.
-    #[inline]
-    fn cosines(&self) -> f64 {
-        let [v0, v1, v2] = self.v;
-        let (c0, c1, c2) = (v1.dot(v2), v2.dot(v0), v0.dot(v1));
-        if c0 >= c1 && c0 >= c2 {
-            (v1 + v0).dot(v2 + v0)
-        } else if c1 >= c2 {
-            (v2 + v1).dot(v0 + v1)
-        } else {
-            (v0 + v2).dot(v1 + v2)
-        }
-    }
-
-    #[inline]
-    fn solid_angle(&self) -> f32 {
-        let angle = 2.0 * num::atan2(self.volume() as f32, self.cosines() as f32);
-        // NaN at a corner.
-        if angle > 0.0 { angle } else { 0.0 }
+        let (p, edge) = (corner - apex.from, corner - apex.corner);
+        let square = p.length_squared();
+        let l = sqrt(square);
+        let way = if square < edge.length_squared() { p } else { edge };
+        Self { edge, v: p * (1.0 / l), l, way }
     }
 }
 
-#[inline]
-fn shorter(a: DVec3, b: DVec3) -> DVec3 {
-    if b.length_squared() < a.length_squared() { b } else { a }
+/// Volume of the apex's direction and two ways (m²). Their product comes first: next to a needle both
+/// are all but along the direction.
+#[inline(always)]
+fn volume(apex: &Apex, a: &Corner, b: &Corner) -> f64 {
+    apex.v.dot(a.way.cross(b.way)).abs()
 }
 
-/// Unit tangent at the direction `v` on the side of `way`.
-#[inline]
-fn tangent(v: DVec3, way: DVec3) -> DVec3 {
-    (way - v * v.dot(way)).normalize()
+/// `1 + Σ cos` as `(vᵢ + vₖ)·(vⱼ + vₖ)`. In a needle's plane the first and second are opposite to the
+/// third; their sums are small, and so is what they lose.
+#[inline(always)]
+fn cosines([v0, v1, v2]: [DVec3; 3]) -> f64 {
+    let (c0, c1, c2) = (v1.dot(v2), v2.dot(v0), v0.dot(v1));
+    let (i, j, k) = if c0 >= c1 && c0 >= c2 {
+        (v1, v2, v0)
+    } else if c1 >= c2 {
+        (v2, v0, v1)
+    } else {
+        (v0, v1, v2)
+    };
+    (i + k).dot(j + k)
+}
+
+/// Sine and cosine of half the solid angle of a triangle, from either side, times one number above 0; NaN
+/// at a corner.
+#[inline(always)]
+#[must_use]
+pub(crate) fn half_solid_angle(apex: &Apex, a: &Corner, b: &Corner) -> [f32; 2] {
+    [(volume(apex, a, b) / (a.l * b.l)) as f32, cosines([apex.v, a.v, b.v]) as f32]
 }
 
 /// `1 − cos` of an angle, itself or as what `1 + cos` leaves of 2: the smaller one has the digits.
@@ -127,42 +139,43 @@ fn above_or_rest(versine: f64, versine_below: f64) -> f64 {
     if versine_below < 1.0 { 2.0 - versine_below } else { versine }
 }
 
-/// Solid angle of a triangle (sr), in `[0, 2π]`, from either side; 0 in its plane.
-#[inline]
-#[must_use]
-pub(crate) fn triangle_solid_angle(from: Vec3, corners: &[Vec3; 3]) -> f32 {
-    Relative::new(from, corners).solid_angle()
-}
-
 impl SphericalTriangle {
     /// The triangle of three corners (m), seen from `from`; the winding does not matter.
     ///
     /// `None` in its plane, when it has no area or is too small for `f32` from there, or when something
     /// is not finite.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn new(from: Vec3, corners: &[Vec3; 3]) -> Option<Self> {
-        let relative = Relative::new(from, corners);
-        let solid_angle = relative.solid_angle();
-        let Relative { origin, edges, v: [v0, v1, _], l, ways } = relative;
-        let [along_side, along_base] = ways.map(|way| tangent(v0, way));
-        let sin_side = v0.cross(ways[0]).length() / l[1];
-        let across = v0.cross(ways[1]).length();
-        let cos_alpha = along_side.dot(along_base);
-        let versine_below = 0.5 * (v0 + v1).length_squared();
+        let apex = Apex::new(from, corners[0]);
+        let (a, b) = (Corner::new(&apex, corners[1]), Corner::new(&apex, corners[2]));
+        let [sin, cos] = half_solid_angle(&apex, &a, &b);
+        Self::from_corners(&apex, &a, &b, 2.0 * num::atan2(sin, cos))
+    }
+
+    /// The same with corners whose solid angle (sr) is known.
+    #[inline(always)]
+    pub(crate) fn from_corners(apex: &Apex, a: &Corner, b: &Corner, solid_angle: f32) -> Option<Self> {
+        // The planes through the apex: their angle is that at the apex.
+        let (to_a, to_b) = (apex.v.cross(a.way), apex.v.cross(b.way));
+        let (aside, across) = (to_a.length(), to_b.length());
+        let sin_side = aside / a.l;
+        let per_both = 1.0 / (aside * across);
+        let cos_alpha = to_a.dot(to_b) * per_both;
+        let versine_below = 0.5 * (apex.v + a.v).length_squared();
         let versine = above_or_rest(sin_side * sin_side / versine_below, versine_below);
         let seen = solid_angle >= f32::MIN_POSITIVE && versine > 0.0 && across > 0.0 && !cos_alpha.is_nan();
         seen.then_some(Self {
             solid_angle,
-            origin,
-            edges,
-            first: l[0],
-            second: l[1],
-            alpha: [cos_alpha, relative.volume() * l[2] / (across * sin_side)],
+            origin: apex.origin,
+            edges: [a.edge, b.edge],
+            first: apex.l,
+            second: a.l,
+            alpha: [cos_alpha, volume(apex, a, b) * per_both],
             versine,
             versine_below,
             cot_half: versine_below / sin_side,
-            base: [v0.dot(edges[1]), across],
+            base: [apex.v.dot(b.edge), across],
         })
     }
 
@@ -177,7 +190,7 @@ impl SphericalTriangle {
     /// the receiver's own, as far as double precision can tell.
     ///
     /// * `u` – two independent uniforms, each in `[0, 1)`
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn sample(&self, u: [f32; 2]) -> Option<TrianglePlace> {
         let arc = Arc::new(self, num::sin_cos(0.5 * u[0] * self.solid_angle));
@@ -186,7 +199,8 @@ impl SphericalTriangle {
         let (rise, sin) = (across * arc.cos - along * arc.sin, self.first * arc.sin);
         // At least the sine: the end is on the edge.
         let rise = rise.max(sin).max(f64::MIN_POSITIVE);
-        let (share, reach) = (sin / rise, self.first * across / rise);
+        let per_rise = 1.0 / rise;
+        let (share, reach) = (sin * per_rise, self.first * across * per_rise);
         // 1 − cos and 1 + cos each for itself: next to the second corner's opposite, one has no digits.
         let u = f64::from(u[1]);
         let (versine, below) = (u * arc.versine, arc.versine_below + (1.0 - u) * arc.versine);
@@ -200,7 +214,7 @@ impl SphericalTriangle {
         let distance = way.length();
         (distance as f32 > 0.0 && distance < f64::from(f32::MAX)).then(|| TrianglePlace {
             barycentric: [b1, b2],
-            direction: (way / distance).as_vec3(),
+            direction: (way * (1.0 / distance)).as_vec3(),
             distance: distance as f32,
         })
     }
@@ -263,7 +277,7 @@ struct Arc {
 
 impl Arc {
     /// * `sin_h`, `cos_h` – of half the area to cut off
-    #[inline]
+    #[inline(always)]
     fn new(triangle: &SphericalTriangle, (sin_h, cos_h): (f32, f32)) -> Self {
         let SphericalTriangle { alpha: [cos_a, sin_a], versine, versine_below, cot_half, .. } = *triangle;
         let (sin_h, cos_h) = (f64::from(sin_h), f64::from(cos_h));
