@@ -10,7 +10,9 @@ use halflight::sequence::{AnySequence, Random, Sobol};
 use std::fmt;
 
 /// With `auto`, up to so many lights are all sampled at each point; of more, one is chosen by a tree.
-const FEW_LIGHTS: usize = 4;
+/// With the first 4, 8 and 16 lights of the peers' scene `many`, relMSE times seconds of all, over that of
+/// the tree, were 1.4, 0.24 and 1.4.
+const FEW_LIGHTS: usize = 8;
 
 /// Which light a sample goes to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
