@@ -1,7 +1,7 @@
 //! Each BSDF passes each check.
 
 use halflight::Rgb;
-use halflight::bsdf::{Bsdf, GgxConductor, Lambert, Phong, TwoSided};
+use halflight::bsdf::{Bsdf, GgxConductor, Lambert, Phong, RoughPlastic, TwoSided};
 use halflight::glam::Vec3;
 use halflight_tests::bsdfs::{self, COSINES, Lying, furnace, outgoing};
 use halflight_tests::quadrature::integrate;
@@ -61,6 +61,19 @@ fn ggx(alpha: f32) -> GgxConductor {
     GgxConductor::new(Rgb::WHITE, alpha).unwrap()
 }
 
+/// Rough along one axis and smooth along the other.
+fn brushed(along: f32, across: f32) -> GgxConductor {
+    GgxConductor::anisotropic(Rgb::WHITE, [along, across]).unwrap()
+}
+
+fn gold(alpha: f32) -> GgxConductor {
+    ggx(alpha).with_index(Rgb::new(0.143, 0.375, 1.442), Rgb::new(3.983, 2.386, 1.603)).unwrap()
+}
+
+fn plastic(alpha: f32, eta: f32, diffuse: f32) -> RoughPlastic {
+    RoughPlastic::new(alpha, eta).unwrap().with_diffuse(Rgb::splat(diffuse)).unwrap()
+}
+
 conformance!(lambert_grey, lambert());
 conformance!(phong_flat, phong(0.3, 0.5, 0.0));
 conformance!(phong_broad, phong(0.2, 0.8, 12.0));
@@ -70,6 +83,17 @@ conformance!(ggx_rough, ggx(1.0));
 conformance!(ggx_broad, ggx(0.4));
 conformance!(ggx_narrow, ggx(0.01), cone: 2e-3);
 conformance!(ggx_needle, ggx(1e-4), cone: 2e-7);
+conformance!(ggx_brushed, brushed(0.2, 0.7));
+conformance!(ggx_brushed_across, brushed(0.9, 0.25));
+conformance!(ggx_brushed_narrow, brushed(0.02, 0.005), cone: 4e-3);
+conformance!(gold_broad, gold(0.4));
+conformance!(gold_narrow, gold(0.01), cone: 2e-3);
+conformance!(plastic_rough, plastic(1.0, 1.49, 1.0));
+conformance!(plastic_broad, plastic(0.3, 1.49, 0.7));
+conformance!(plastic_black, plastic(0.3, 2.0, 0.0));
+conformance!(plastic_without_boundary, plastic(0.3, 1.0, 1.0));
+conformance!(plastic_narrow, plastic(0.01, 1.33, 0.2), cone: 2e-3);
+conformance!(plastic_needle, plastic(1e-4, 2.4, 1.0), cone: 2e-7);
 
 #[test]
 fn lambert_reflects_its_reflectance_from_everywhere() -> Verdict {
@@ -121,6 +145,20 @@ fn ggx_weights_are_at_most_the_reflectance() {
 }
 
 #[test]
+fn facets_that_reflect_hardly_anything_are_still_sampled() {
+    // Less than the error of the fitted transmittance: without a floor they would never be drawn.
+    for eta in [1.002, 1.01, 1.05] {
+        for cosine in COSINES {
+            let wo = outgoing(cosine);
+            let mirror = Vec3::new(-wo.x, -wo.y, wo.z);
+            let bsdf = plastic(1e-3, eta, 0.9);
+            let reflected = bsdf.eval(wo, mirror).g * cosine / bsdf.pdf_solid_angle(wo, mirror);
+            assert!(reflected < 40.0, "η = {eta}, {cosine}: a sample may weigh {reflected}");
+        }
+    }
+}
+
+#[test]
 fn a_smooth_metal_reflects_everything() -> Verdict {
     // With masking but no second bounce, what is lost goes to 0 with the roughness.
     furnace(&ggx(1e-3), outgoing(0.8)).check_mean("albedo", 1.0, 1e-4)
@@ -165,7 +203,9 @@ mod two_percent_are_noticed {
 
     #[test]
     fn by_the_histogram() {
-        let lying = Lying { bsdf: ggx(0.4), sampled: 1.0, queried: 1.02 };
-        assert!(bsdfs::directions_pass_chi_square(&lying, 2.0).is_err());
+        let metal = Lying { bsdf: brushed(0.2, 0.7), sampled: 1.0, queried: 1.02 };
+        assert!(bsdfs::directions_pass_chi_square(&metal, 2.0).is_err());
+        let coated = Lying { bsdf: plastic(0.3, 1.49, 0.7), sampled: 1.0, queried: 1.02 };
+        assert!(bsdfs::directions_pass_chi_square(&coated, 2.0).is_err());
     }
 }

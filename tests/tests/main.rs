@@ -1,5 +1,6 @@
 //! Conformance, statistics and closed forms, in one binary.
 
+mod bsdf_values;
 mod bsdfs;
 mod bvh;
 mod choosing;

@@ -89,6 +89,7 @@ fn bsdf_kind(bsdf: &TwoSided<AnyBsdf>) -> &'static str {
         AnyBsdf::Lambert(_) => "diffuse",
         AnyBsdf::Phong(_) => "phong",
         AnyBsdf::GgxConductor(_) => "roughconductor",
+        AnyBsdf::RoughPlastic(_) => "roughplastic",
     }
 }
 

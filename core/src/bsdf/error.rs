@@ -23,6 +23,15 @@ pub enum BsdfError {
     Exponent(f32),
     /// The roughness is outside what the model supports.
     Roughness(f32),
+    /// The index of refraction inside over that outside is outside what the model supports.
+    RelativeIndex(f32),
+    /// The refractive index or the extinction coefficient of a metal is outside `[0, 10⁴]`.
+    ConductorIndex {
+        /// Which one.
+        field: &'static str,
+        /// Its value.
+        value: Rgb,
+    },
 }
 
 impl fmt::Display for BsdfError {
@@ -38,6 +47,13 @@ impl fmt::Display for BsdfError {
             Self::Exponent(value) => write!(f, "the exponent is {value}; it must be 0 or more"),
             Self::Roughness(value) => {
                 write!(f, "the roughness is {value}; it must be between 1e-4 and 1")
+            }
+            Self::RelativeIndex(value) => write!(
+                f,
+                "the index of refraction inside is {value} times that outside; it must be between 1 and 4 times"
+            ),
+            Self::ConductorIndex { field, value: Rgb { r, g, b } } => {
+                write!(f, "{field} is ({r}, {g}, {b}); each channel must be between 0 and 10000")
             }
         }
     }

@@ -1,19 +1,24 @@
 //! Reflection: one file per model.
 //!
-//! Directions are unit vectors in the local frame of the surface (`z` is the shading normal) and
-//! point away from it. A model describes the side that `z` points to; [`TwoSided`] gives a surface
+//! Directions are unit vectors in the local frame of the surface (`z` is the shading normal, `x` its
+//! tangent where [`Bsdf::needs_tangent`]) and point away from it. A model describes the side that `z` points to; [`TwoSided`] gives a surface
 //! one on each side.
 
 mod error;
+mod fresnel;
 mod ggx;
 mod lambert;
+mod microfacet;
 mod phong;
+mod rough_plastic;
+mod transmittance;
 mod two_sided;
 
 pub use error::BsdfError;
 pub use ggx::GgxConductor;
 pub use lambert::Lambert;
 pub use phong::Phong;
+pub use rough_plastic::RoughPlastic;
 pub use two_sided::TwoSided;
 
 use crate::Rgb;
@@ -52,6 +57,13 @@ pub trait Bsdf: Copy {
         false
     }
 
+    /// True when it matters how the local frame is turned about the normal: `x` must then be along the
+    /// surface's tangent.
+    #[inline]
+    fn needs_tangent(&self) -> bool {
+        false
+    }
+
     /// True when nothing is reflected in any direction, so that no light need be sampled.
     fn is_black(&self) -> bool {
         self.albedo().is_black()
@@ -67,6 +79,8 @@ pub enum AnyBsdf {
     Phong(Phong),
     /// A rough metal.
     GgxConductor(GgxConductor),
+    /// Matte under a rough coat.
+    RoughPlastic(RoughPlastic),
 }
 
 /// The only list of variants; every method goes through it.
@@ -76,6 +90,7 @@ macro_rules! each_bsdf {
             AnyBsdf::Lambert($inner) => $body,
             AnyBsdf::Phong($inner) => $body,
             AnyBsdf::GgxConductor($inner) => $body,
+            AnyBsdf::RoughPlastic($inner) => $body,
         }
     };
 }
@@ -103,5 +118,10 @@ impl Bsdf for AnyBsdf {
     #[inline]
     fn is_diffuse(&self) -> bool {
         each_bsdf!(self, b => b.is_diffuse())
+    }
+
+    #[inline]
+    fn needs_tangent(&self) -> bool {
+        each_bsdf!(self, b => b.needs_tangent())
     }
 }

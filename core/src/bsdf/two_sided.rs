@@ -65,6 +65,11 @@ impl<B: Bsdf> Bsdf for TwoSided<B> {
         self.front.is_diffuse() && self.back.as_ref().is_none_or(Bsdf::is_diffuse)
     }
 
+    #[inline]
+    fn needs_tangent(&self) -> bool {
+        self.front.needs_tangent() || self.back.as_ref().is_some_and(Bsdf::needs_tangent)
+    }
+
     fn is_black(&self) -> bool {
         self.front.is_black() && self.back.as_ref().is_none_or(Bsdf::is_black)
     }

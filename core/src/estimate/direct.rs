@@ -266,6 +266,7 @@ impl Estimator for Direct<'_> {
         if bsdf.is_black() {
             return emitted;
         }
-        emitted + self.reflected(scene, &Shading::new(&hit, bsdf, wo), sequence)
+        let shading = Shading::new(&hit, bsdf, wo, || scene.tangent(&hit));
+        emitted + self.reflected(scene, &shading, sequence)
     }
 }

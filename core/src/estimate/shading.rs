@@ -20,14 +20,19 @@ pub(super) struct Shading<'s, B> {
 
 impl<'s, B: Bsdf> Shading<'s, B> {
     /// * `wo` – unit direction to the viewer, world space
+    /// * `tangent` – computes the surface's tangent; called only where the BSDF needs it
     #[inline]
-    pub(super) fn new(at: &'s Interaction, bsdf: B, wo: Vec3) -> Self {
+    pub(super) fn new(at: &'s Interaction, bsdf: B, wo: Vec3, tangent: impl FnOnce() -> Vec3) -> Self {
         let front = at.at.normal.dot(wo) >= 0.0;
         let side = if front { at.at.normal } else { -at.at.normal };
         // An interpolated normal that turns away from the viewer has nothing to say there.
         let agrees = (at.shading_normal.dot(wo) >= 0.0) == front;
         let normal = if agrees { at.shading_normal } else { at.at.normal };
-        let frame = Frame::from_normal(normal);
+        let frame = if bsdf.needs_tangent() {
+            Frame::from_normal_and_tangent(normal, tangent())
+        } else {
+            Frame::from_normal(normal)
+        };
         let receiver = Receiver { point: at.at.point, normal: if front { normal } else { -normal } };
         Self { at, receiver, bsdf, frame, wo: frame.to_local(wo), side }
     }

@@ -32,6 +32,27 @@ impl Frame {
         }
     }
 
+    /// Builds a basis around the unit vector `n` whose first tangent is along `tangent`, as far as that
+    /// is at right angles to `n`; as [`Frame::from_normal`] where nothing of it is.
+    ///
+    /// * `tangent` – of any length
+    #[inline]
+    #[must_use]
+    pub fn from_normal_and_tangent(n: Vec3, tangent: Vec3) -> Self {
+        let across = |t: Vec3| t - n * n.dot(t);
+        let along = unit(tangent)
+            .map(across)
+            // What rounding leaves of a tangent along the normal has no direction.
+            .filter(|t| t.length_squared() > 1e-10)
+            .and_then(unit)
+            // Once more, because little was left of a tangent almost along the normal.
+            .and_then(|t| unit(across(t)));
+        match along {
+            Some(s) => Self { s, t: n.cross(s), n },
+            None => Self::from_normal(n),
+        }
+    }
+
     /// From world to local coordinates.
     #[inline]
     #[must_use]
@@ -101,6 +122,19 @@ mod tests {
             let err = f.s.dot(f.t).abs().max(f.s.dot(n).abs()).max((f.t.length() - 1.0).abs());
             assert!(err < 1e-6, "{n} {err}");
             assert!((f.to_world(f.to_local(Vec3::X)) - Vec3::X).length() < 2e-6);
+        }
+    }
+
+    #[test]
+    fn tangents_are_kept_as_far_as_they_are_at_right_angles() {
+        let n = Vec3::new(0.6, 0.0, 0.8);
+        for tangent in [Vec3::X, Vec3::NEG_X, Vec3::Y * 1e-30, Vec3::new(0.6, 1e-3, 0.8) * 1e10] {
+            let f = Frame::from_normal_and_tangent(n, tangent);
+            assert!(f.s.dot(tangent) > 0.0 && (f.s.cross(f.t) - n).length() < 1e-6, "{tangent} {f:?}");
+            assert!(f.t.dot(unit(tangent).unwrap()).abs() < 1e-4, "{tangent} {f:?}");
+        }
+        for nothing in [Vec3::ZERO, n, n * 1e9, Vec3::NAN, Vec3::INFINITY] {
+            assert_eq!(Frame::from_normal_and_tangent(n, nothing), Frame::from_normal(n));
         }
     }
 

@@ -81,7 +81,7 @@ impl CylinderSlab {
     fn new(tube: &Cylinder, foot: &Foot, inside: bool) -> Option<Self> {
         let lines = Lines::new(tube, foot, inside);
         // A right angle from the wall itself; less from afar.
-        let tangent = num::sqrt(lines.gap) * num::sqrt(lines.distance + tube.radius());
+        let tangent = num::sqrt(lines.gap * (lines.distance + tube.radius()));
         let half = if inside { 1.0 } else { tube.radius() / (tangent + lines.distance) };
         Some(Self { lines, sweep: Sweep::new(half, [lines.seen(half); 2])? })
     }

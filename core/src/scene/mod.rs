@@ -178,6 +178,18 @@ impl<'a, S: Shape, L: Emitter, M: Material> Scene<'a, S, L, M> {
         }
     }
 
+    /// Direction in which the first texture coordinate grows at a hit, of any length and either sign;
+    /// zero where there is none.
+    #[must_use]
+    pub fn tangent(&self, hit: &Interaction) -> Vec3 {
+        let Some(surface) = self.tables.surfaces.get(hit.surface as usize) else { return Vec3::ZERO };
+        let tangents = surface.shape.tangents(hit.at.point);
+        match self.tables.uvs.get(surface.uvs as usize) {
+            Some(corners) => corners.tangent(tangents),
+            None => tangents[0],
+        }
+    }
+
     /// True when nothing stands between a surface point and a light `distance` (m) away, or anything
     /// at all when the distance is infinite.
     #[inline]

@@ -30,6 +30,19 @@ pub struct CornerNormals(pub [Vec3; 3]);
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CornerUvs(pub [Vec2; 3]);
 
+impl CornerUvs {
+    /// Direction in which the first coordinate grows, of any length and either sign; zero where the
+    /// coordinates have no area.
+    ///
+    /// * `edges` – from the first corner to the second and to the third
+    #[must_use]
+    pub fn tangent(&self, edges: [Vec3; 2]) -> Vec3 {
+        let [a, b, c] = self.0;
+        let (ab, ac) = (b - a, c - a);
+        if ab.perp_dot(ac) == 0.0 { Vec3::ZERO } else { edges[0] * ac.y - edges[1] * ab.y }
+    }
+}
+
 /// What a scene is made of, borrowed.
 #[derive(Debug)]
 pub struct Tables<'a, S, L, M> {

@@ -136,6 +136,11 @@ impl Shape for Cylinder {
         let a = self.unit_axis();
         self.point(hit.v, unit(r - a * r.dot(a)).unwrap_or(Vec3::X))
     }
+
+    /// Around the axis, and along it.
+    fn tangents(&self, point: Vec3) -> [Vec3; 2] {
+        [self.axis.cross(self.coordinates(point).1), self.axis]
+    }
 }
 
 #[cfg(test)]

@@ -93,4 +93,10 @@ impl Shape for Disk {
     fn surface_point(&self, _ray: &Ray, hit: &ShapeHit) -> SurfacePoint {
         self.0.surface_point(hit.u, hit.v)
     }
+
+    /// Away from the centre, and around it.
+    fn tangents(&self, point: Vec3) -> [Vec3; 2] {
+        let outward = point - self.centre();
+        [outward, self.normal().cross(outward)]
+    }
 }

@@ -70,6 +70,11 @@ pub trait Shape: Copy {
 
     /// The surface point of a hit that [`Shape::intersect`] has found.
     fn surface_point(&self, ray: &Ray, hit: &ShapeHit) -> SurfacePoint;
+
+    /// Directions in which the shape's own two texture coordinates grow at a point of it, as in Mitsuba
+    /// 3; of any length and either sign, but for a triangle, which gives its edges. Zero where there are
+    /// none.
+    fn tangents(&self, point: Vec3) -> [Vec3; 2];
 }
 
 /// Any of the shapes: what a frontend that reads arbitrary scenes uses.
@@ -135,5 +140,9 @@ impl Shape for AnyShape {
     #[inline]
     fn surface_point(&self, ray: &Ray, hit: &ShapeHit) -> SurfacePoint {
         each_shape!(self, s => s.surface_point(ray, hit))
+    }
+
+    fn tangents(&self, point: Vec3) -> [Vec3; 2] {
+        each_shape!(self, s => s.tangents(point))
     }
 }

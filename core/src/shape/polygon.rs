@@ -173,6 +173,12 @@ impl Shape for Polygon {
         let along = hit.u - index as f32;
         self.place(index, hit.v * (1.0 - along), hit.v * along)
     }
+
+    /// Along the first edge, and across it.
+    fn tangents(&self, _: Vec3) -> [Vec3; 2] {
+        let along = self.corners()[1] - self.corners()[0];
+        [along, self.normal().cross(along)]
+    }
 }
 
 #[cfg(test)]

@@ -94,4 +94,9 @@ impl Shape for Rectangle {
     fn surface_point(&self, _ray: &Ray, hit: &ShapeHit) -> SurfacePoint {
         self.0.surface_point(hit.u, hit.v)
     }
+
+    /// Along the edges.
+    fn tangents(&self, _: Vec3) -> [Vec3; 2] {
+        [self.half_u(), self.half_v()]
+    }
 }

@@ -111,6 +111,13 @@ impl Shape for Sphere {
         // Pulled back onto the surface: the error does not depend on the distance of the origin.
         self.point(unit(ray.at(hit.t) - self.centre).unwrap_or(Vec3::Z))
     }
+
+    /// Around the third axis of the world, and away from that axis' upper end.
+    fn tangents(&self, point: Vec3) -> [Vec3; 2] {
+        let outward = point - self.centre;
+        let around = Vec3::Z.cross(outward);
+        [around, around.cross(outward)]
+    }
 }
 
 /// Both parameters at which `from + t direction` is `radius` away from the origin, in order.

@@ -149,6 +149,12 @@ impl Shape for Triangle {
     fn surface_point(&self, _ray: &Ray, hit: &ShapeHit) -> SurfacePoint {
         self.point(hit.u, hit.v)
     }
+
+    /// Along the edges from the first corner.
+    fn tangents(&self, _: Vec3) -> [Vec3; 2] {
+        let [a, b, c] = self.corners();
+        [b - a, c - a]
+    }
 }
 
 /// Bound on the error of `t`: a hit nearer than this may in truth be behind the origin.

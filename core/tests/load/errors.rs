@@ -9,7 +9,7 @@ fn an_unknown_plugin_is_named_with_its_place_and_the_nearest_known_one() {
     assert_eq!(
         message,
         "scene.xml:3: <bsdf type=\"difuse\">: unknown bsdf \"difuse\"; did you mean \"diffuse\"? \
-         supported: diffuse, phong, roughconductor, twosided"
+         supported: diffuse, phong, roughconductor, roughplastic, twosided"
     );
 }
 
@@ -42,6 +42,7 @@ fn unknown_elements_plugins_properties_and_attributes_are_refused() {
             "supported: box, tent, gaussian",
         ),
         ("<bsdf type=\"roughconductor\" id=\"a\"/>", "unknown distribution \"beckmann\""),
+        ("<bsdf type=\"roughplastic\" id=\"a\"/>", "unknown distribution \"beckmann\""),
         ("<shape type=\"sphere\"><transform name=\"to_world\"><skew x=\"1\"/></transform></shape>", "skew"),
         ("<shape type=\"sphere\">text</shape>", "text between elements"),
     ] {

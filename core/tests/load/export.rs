@@ -21,6 +21,10 @@ const EVERYTHING: &str = "\
 <bsdf type=\"twosided\" id=\"a &amp; &quot;b&quot; &lt;c&gt;\"><bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\".1 .2 .3\"/></bsdf>\
 <bsdf type=\"phong\"/></bsdf>\
 <bsdf type=\"roughconductor\" id=\"metal\"><string name=\"distribution\" value=\"ggx\"/></bsdf>\
+<bsdf type=\"roughconductor\" id=\"brushed\"><string name=\"distribution\" value=\"ggx\"/><float name=\"alpha_u\" value=\".3\"/>\
+<float name=\"alpha_v\" value=\".07\"/><rgb name=\"eta\" value=\".2 .9 1.1\"/><rgb name=\"k\" value=\"3.9 2.4 2.2\"/></bsdf>\
+<bsdf type=\"roughplastic\" id=\"plastic\"><string name=\"distribution\" value=\"ggx\"/><string name=\"int_ior\" value=\"bk7\"/>\
+<rgb name=\"diffuse_reflectance\" value=\".1 .2 .3\"/><boolean name=\"nonlinear\" value=\"true\"/></bsdf>\
 <shape type=\"rectangle\" id=\"floor\"><ref id=\"metal\"/><transform name=\"to_world\"><rotate x=\".8\" y=\".6\" angle=\"-77\"/>\
 <scale value=\"12.1\"/><translate x=\".3\"/></transform></shape>\
 <shape type=\"rectangle\"><boolean name=\"flip_normals\" value=\"true\"/><bsdf type=\"twosided\"><bsdf type=\"diffuse\"/></bsdf></shape>\

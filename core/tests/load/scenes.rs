@@ -84,13 +84,36 @@ fn every_material_is_read() {
          <bsdf type=\"twosided\" id=\"b\"><ref id=\"c\"/><bsdf type=\"diffuse\"/></bsdf>\
          <bsdf type=\"phong\" id=\"c\"><rgb name=\"diffuse_reflectance\" value=\".3\"/></bsdf>";
     let materials = scene("kinds", body).materials;
-    assert!(matches!(materials[0].bsdf.front, AnyBsdf::GgxConductor(b) if b.alpha() == 0.25));
+    assert!(matches!(materials[0].bsdf.front, AnyBsdf::GgxConductor(b) if b.alpha() == [0.25; 2]));
     assert_eq!(materials[0].bsdf.back, Some(materials[0].bsdf.front));
     assert!(matches!(materials[1].bsdf.front, AnyBsdf::Phong(b) if b.diffuse() == Rgb::splat(0.3)));
     assert!(matches!(materials[1].bsdf.back, Some(AnyBsdf::Lambert(_))));
     assert!(
         matches!(materials[2].bsdf.front, AnyBsdf::Phong(b) if b.exponent() == 30.0 && b.specular() == Rgb::splat(0.2))
     );
+}
+
+#[test]
+fn stretched_metals_and_plastics_are_read() {
+    let body = "<shape type=\"disk\"/><bsdf type=\"roughconductor\" id=\"a\">\
+         <string name=\"distribution\" value=\"ggx\"/><float name=\"alpha_u\" value=\"0.1\"/>\
+         <float name=\"alpha_v\" value=\"0.3\"/><rgb name=\"eta\" value=\".2 .9 1.1\"/>\
+         <rgb name=\"k\" value=\"3.9 2.4 2.2\"/></bsdf>\
+         <bsdf type=\"roughplastic\" id=\"b\"><string name=\"distribution\" value=\"ggx\"/></bsdf>\
+         <bsdf type=\"roughplastic\" id=\"c\"><string name=\"distribution\" value=\"ggx\"/>\
+         <string name=\"int_ior\" value=\"BK7\"/><float name=\"ext_ior\" value=\"1.25\"/>\
+         <float name=\"alpha\" value=\"0.2\"/><rgb name=\"diffuse_reflectance\" value=\".1 .2 .3\"/>\
+         <rgb name=\"specular_reflectance\" value=\".9\"/><boolean name=\"nonlinear\" value=\"true\"/></bsdf>";
+    let materials = scene("stretched", body).materials;
+    let AnyBsdf::GgxConductor(metal) = materials[0].bsdf.front else { panic!("no metal") };
+    assert_eq!(metal.alpha(), [0.1, 0.3]);
+    assert_eq!(metal.index(), Some((Rgb::new(0.2, 0.9, 1.1), Rgb::new(3.9, 2.4, 2.2))));
+    let AnyBsdf::RoughPlastic(plain) = materials[1].bsdf.front else { panic!("no plastic") };
+    assert!((plain.eta() - 1.49 / 1.000_277).abs() < 1e-6 && plain.alpha() == 0.1);
+    assert!(plain.diffuse() == Rgb::splat(0.5) && plain.specular() == Rgb::WHITE && !plain.is_nonlinear());
+    let AnyBsdf::RoughPlastic(full) = materials[2].bsdf.front else { panic!("no plastic") };
+    assert!((full.eta() - 1.5046 / 1.25).abs() < 1e-6 && full.alpha() == 0.2 && full.is_nonlinear());
+    assert_eq!((full.diffuse(), full.specular()), (Rgb::new(0.1, 0.2, 0.3), Rgb::splat(0.9)));
 }
 
 #[test]
@@ -103,7 +126,7 @@ fn materials_beyond_what_is_possible_are_moderated_with_a_warning() {
     let AnyBsdf::Phong(p) = loaded.description.materials[0].bsdf.front else { panic!("no phong") };
     assert!((p.diffuse().r - 0.495).abs() < 1e-6 && p.diffuse() == p.specular());
     let AnyBsdf::GgxConductor(m) = loaded.description.materials[1].bsdf.front else { panic!("no metal") };
-    assert_eq!(m.alpha(), 1e-4);
+    assert_eq!(m.alpha(), [1e-4; 2]);
     assert_eq!(loaded.warnings.len(), 3, "both, and the missing sensor");
 }
 

@@ -119,7 +119,7 @@ fn samples<S: SampledShape>(light: &AreaLight<S>, case: &Case) -> Verdict {
     ensure!((queried / pdf - 1.0).abs() <= 1e-5, "density {queried} when queried, {pdf} when sampled");
     let off = (case.from.point + sample.wi * sample.distance - drawn.at.point).length();
     let reach = case.reach.max(sample.distance);
-    ensure!(off <= 512.0 * UNIT_ROUND_OFF * reach, "the way ends {off} beside {:?}", drawn.at);
+    ensure!(off <= 64.0 * UNIT_ROUND_OFF * reach, "the way ends {off} beside {:?}", drawn.at);
     Ok(())
 }
 
@@ -206,29 +206,22 @@ fn halves(shape: &Rectangle, case: &Case) -> Verdict {
     Ok(())
 }
 
-/// By a power of two, which rounds nothing; but where two forms of the same change places, the last
-/// bit may change, and with it whether a light is seen that is edge-on to rounding.
+/// By a power of two, which rounds nothing: to the last bit.
 fn scaling<S: Specimen>(shape: S, case: &Case, k: f32) -> Verdict {
+    // Fourth powers of smaller lengths lose their digits to underflow.
+    if case.minor < 1e-7 {
+        return Ok(());
+    }
     let scaled = Case { from: Receiver { point: case.from.point * k, ..case.from }, ..*case };
     let (one, other) = (light(shape, case), light(shape.scaled(k), &scaled));
     let (a, b) = (draw(&one, case)?, draw(&other, &scaled)?);
-    let edge_on = is_edge_on(&shape, case);
-    // The rim of a round light is as well known as the root of a rounding, be it seen along the surface
-    // or be it where the sweep over the light begins and ends.
-    let end = is_at_end(case) || is_coarse(case);
-    let rim = end || a.or(b).is_some_and(|(a, _, drawn)| drawn.at.normal.dot(a.wi).abs() < 1e-3);
-    ensure!(a.is_some() == b.is_some() || edge_on || rim, "{a:?}, times {k} {b:?}");
-    // Near the plane a last bit of the height turns a direction.
-    let (foot, normal) = shape.foot();
-    let near = normal.dot(case.from.point - foot).abs() < 1e-2 * case.reach;
-    if let Some(((a, pdf_a, drawn), (b, pdf_b, _))) = a.zip(b).filter(|_| !end && !near) {
-        let turned = (a.wi - b.wi).length();
-        ensure!(turned < 1e-6 || pdf_a * turned * turned <= SLIVER, "toward {}, times {k} {}", a.wi, b.wi);
-        let tolerance = 1e-5 + 16.0 * UNIT_ROUND_OFF / drawn.at.normal.dot(a.wi).abs();
-        ensure!((pdf_a / pdf_b - 1.0).abs() < tolerance, "density {pdf_a}, times {k} {pdf_b}");
+    ensure!(a.is_some() == b.is_some(), "{a:?}, times {k} {b:?}");
+    if let Some(((a, pdf_a, _), (b, pdf_b, _))) = a.zip(b) {
+        ensure!(a.wi == b.wi, "toward {}, times {k} {}", a.wi, b.wi);
+        ensure!(pdf_a == pdf_b, "density {pdf_a}, times {k} {pdf_b}");
     }
     let e = [one.unshadowed_irradiance(&case.from), other.unshadowed_irradiance(&scaled.from)];
     let [a, b] = e.map(|e| e.map_or(0.0, |e| e.g));
-    ensure!((a - b).abs() <= 1e-5 * a.max(b) || edge_on, "irradiance {a}, times {k} {b}");
+    ensure!(a == b, "irradiance {a}, times {k} {b}");
     Ok(())
 }

@@ -2,7 +2,7 @@
 
 use super::ExportError;
 use super::xml::Xml;
-use crate::bsdf::{AnyBsdf, TwoSided};
+use crate::bsdf::{AnyBsdf, GgxConductor, RoughPlastic, TwoSided};
 use crate::build::{
     CameraDescription, Description, Emission, FovAxis, Geometry, IntegratorDescription, ProjectionDescription,
 };
@@ -131,15 +131,41 @@ fn one_sided(xml: &mut Xml, bsdf: &AnyBsdf, id: Option<&str>) {
             xml.rgb("specular_reflectance", b.specular());
             xml.float("exponent", b.exponent());
         }
-        AnyBsdf::GgxConductor(b) => {
-            xml.open_plugin("bsdf", "roughconductor", id);
-            xml.property("string", "material", "none");
-            xml.property("string", "distribution", "ggx");
-            xml.float("alpha", b.alpha());
-            xml.rgb("specular_reflectance", b.reflectance());
-        }
+        AnyBsdf::GgxConductor(b) => rough_conductor(xml, b, id),
+        AnyBsdf::RoughPlastic(b) => rough_plastic(xml, b, id),
     }
     xml.close("bsdf");
+}
+
+fn rough_conductor(xml: &mut Xml, bsdf: &GgxConductor, id: Option<&str>) {
+    xml.open_plugin("bsdf", "roughconductor", id);
+    xml.property("string", "material", "none");
+    xml.property("string", "distribution", "ggx");
+    match bsdf.alpha() {
+        [along, across] if along == across => xml.float("alpha", along),
+        [along, across] => {
+            xml.float("alpha_u", along);
+            xml.float("alpha_v", across);
+        }
+    }
+    if let Some((eta, k)) = bsdf.index() {
+        xml.rgb("eta", eta);
+        xml.rgb("k", k);
+    }
+    xml.rgb("specular_reflectance", bsdf.reflectance());
+}
+
+fn rough_plastic(xml: &mut Xml, bsdf: &RoughPlastic, id: Option<&str>) {
+    xml.open_plugin("bsdf", "roughplastic", id);
+    xml.property("string", "distribution", "ggx");
+    xml.float("alpha", bsdf.alpha());
+    xml.float("int_ior", bsdf.eta());
+    xml.float("ext_ior", 1.0);
+    xml.rgb("diffuse_reflectance", bsdf.diffuse());
+    xml.rgb("specular_reflectance", bsdf.specular());
+    if bsdf.is_nonlinear() {
+        xml.property("boolean", "nonlinear", "true");
+    }
 }
 
 pub(super) fn shape_kind(geometry: &Geometry) -> &'static str {

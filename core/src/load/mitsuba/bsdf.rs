@@ -2,16 +2,18 @@
 
 use super::context::Context;
 use super::element::Element;
+use super::ior;
 use super::properties::Properties;
 use crate::Rgb;
-use crate::bsdf::{AnyBsdf, GgxConductor, Lambert, Phong, TwoSided};
+use crate::bsdf::{AnyBsdf, GgxConductor, Lambert, Phong, RoughPlastic, TwoSided};
 use crate::load::{LoadError, Problem};
 use std::borrow::ToOwned;
+use std::format;
 
-const NAMES: [&str; 4] = ["diffuse", "phong", "roughconductor", "twosided"];
-const ONE_SIDED: [&str; 3] = ["diffuse", "phong", "roughconductor"];
+const NAMES: [&str; 5] = ["diffuse", "phong", "roughconductor", "roughplastic", "twosided"];
+const ONE_SIDED: [&str; 4] = ["diffuse", "phong", "roughconductor", "roughplastic"];
 
-/// The smoothest metal that is kept as written.
+/// The smoothest surface that is kept as written.
 const MIN_ALPHA: f64 = 1e-4;
 
 /// A material for both sides of a surface.
@@ -56,7 +58,8 @@ fn one_sided(context: &mut Context<'_>, element: &Element) -> Result<AnyBsdf, Lo
             AnyBsdf::Lambert(Lambert::new(reflectance).map_err(|e| element.error(e))?)
         }
         "phong" => AnyBsdf::Phong(phong(context, element, &mut properties)?),
-        _ => AnyBsdf::GgxConductor(rough_conductor(context, element, &mut properties)?),
+        "roughconductor" => AnyBsdf::GgxConductor(rough_conductor(context, element, &mut properties)?),
+        _ => AnyBsdf::RoughPlastic(rough_plastic(context, element, &mut properties)?),
     };
     properties.finish(context)?;
     Ok(bsdf)
@@ -91,16 +94,72 @@ fn rough_conductor(
     {
         return Err(child.error(Problem::unknown("material", material, &["none"])));
     }
-    let (child, distribution) = properties.text("distribution")?.unwrap_or((element, "beckmann"));
-    if distribution != "ggx" {
-        return Err(child.error(Problem::unknown("distribution", distribution, &["ggx"])));
-    }
-    properties.ignore(&["sample_visible"]);
+    only_ggx(element, properties)?;
     let reflectance = properties.reflectance("specular_reflectance")?.unwrap_or(Rgb::WHITE);
-    let mut alpha = properties.float_or("alpha", 0.1)?;
+    let alpha = roughnesses(context, element, properties)?;
+    let bsdf = GgxConductor::anisotropic(reflectance, alpha).map_err(|e| element.error(e))?;
+    let (eta, k) = (properties.reflectance("eta")?, properties.reflectance("k")?);
+    if eta.is_none() && k.is_none() {
+        return Ok(bsdf);
+    }
+    // What is not given is that of a mirror.
+    bsdf.with_index(eta.unwrap_or(Rgb::BLACK), k.unwrap_or(Rgb::WHITE)).map_err(|e| element.error(e))
+}
+
+fn rough_plastic(
+    context: &mut Context<'_>,
+    element: &Element,
+    properties: &mut Properties<'_>,
+) -> Result<RoughPlastic, LoadError> {
+    only_ggx(element, properties)?;
+    let alpha = roughness(context, element, properties.float_or("alpha", 0.1)?);
+    let eta = ior::relative(element, properties)?;
+    let diffuse = properties.reflectance("diffuse_reflectance")?.unwrap_or(Rgb::splat(0.5));
+    let specular = properties.reflectance("specular_reflectance")?.unwrap_or(Rgb::WHITE);
+    let nonlinear = properties.flag("nonlinear")?;
+    RoughPlastic::new(alpha, eta)
+        .and_then(|bsdf| bsdf.with_diffuse(diffuse)?.with_specular(specular))
+        .map(|bsdf| bsdf.with_nonlinear(nonlinear))
+        .map_err(|e| element.error(e))
+}
+
+/// Refuses what Mitsuba takes when nothing is said.
+fn only_ggx(element: &Element, properties: &mut Properties<'_>) -> Result<(), LoadError> {
+    let (child, distribution) = properties.text("distribution")?.unwrap_or((element, "beckmann"));
+    properties.ignore(&["sample_visible"]);
+    if distribution == "ggx" {
+        return Ok(());
+    }
+    Err(child.error(Problem::unknown("distribution", distribution, &["ggx"])))
+}
+
+/// Roughness along the surface's tangent and across it.
+fn roughnesses(
+    context: &mut Context<'_>,
+    element: &Element,
+    properties: &mut Properties<'_>,
+) -> Result<[f32; 2], LoadError> {
+    let both = properties.float("alpha")?;
+    let [along, across] = match (both, properties.float("alpha_u")?, properties.float("alpha_v")?) {
+        (both, None, None) => [both.unwrap_or(0.1); 2],
+        (None, Some(along), Some(across)) => [along, across],
+        (Some(_), ..) => {
+            let what = "\"alpha\" together with \"alpha_u\" or \"alpha_v\"".to_owned();
+            return Err(element.error(Problem::NotSupported { what, instead: "leave \"alpha\" out" }));
+        }
+        (None, along, _) => {
+            let missing = if along.is_some() { "alpha_v" } else { "alpha_u" };
+            return Err(element.error(Problem::Missing { what: format!("the property \"{missing}\"") }));
+        }
+    };
+    Ok([roughness(context, element, along), roughness(context, element, across)])
+}
+
+/// A roughness as far as it is supported.
+fn roughness(context: &mut Context<'_>, element: &Element, alpha: f64) -> f32 {
     if (0.0..MIN_ALPHA).contains(&alpha) {
         context.warn(element, "alpha is below 0.0001, the smoothest that is supported; 0.0001 is used");
-        alpha = MIN_ALPHA;
+        return MIN_ALPHA as f32;
     }
-    GgxConductor::new(reflectance, alpha as f32).map_err(|e| element.error(e))
+    alpha as f32
 }

@@ -8,6 +8,7 @@ mod element;
 mod emitter;
 mod fit;
 mod integrator;
+mod ior;
 mod material;
 mod properties;
 mod scene;

@@ -102,6 +102,11 @@ impl<'e> Properties<'e> {
         child.map(|c| Ok((c, c.required("value")?))).transpose()
     }
 
+    /// The element of a number or a text.
+    pub(super) fn float_or_text(&mut self, name: &'static str) -> Result<Option<&'e Element>, LoadError> {
+        self.take(name, &["float", "integer", "string"], "a <float> or <string>")
+    }
+
     /// Three coordinates.
     pub(super) fn vector(&mut self, name: &'static str) -> Result<Option<DVec3>, LoadError> {
         let child = self.take(name, &["point", "vector"], "a <point> or <vector>")?;
