@@ -115,6 +115,7 @@ pub mod scene;
 pub mod sequence;
 pub mod shape;
 pub mod solid_angle;
+pub mod texture;
 pub mod warp;
 
 pub use camera::Camera;

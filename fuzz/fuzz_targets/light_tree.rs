@@ -3,7 +3,6 @@
 
 use halflight::build::LightTreeBuffers;
 use halflight::choose::{LightNode, LightTree};
-use halflight::glam::Vec3;
 use halflight::light::{AnyLight, AreaLight, Directional, Emitter, Point, Spot};
 use halflight::shape::{Rectangle, Sphere};
 use halflight_fuzz::Numbers;

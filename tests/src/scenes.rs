@@ -27,7 +27,10 @@ impl Stage {
     pub fn empty() -> Self {
         let matte = |r| AnyBsdf::Lambert(Lambert::new(Rgb::splat(r)).expect("a reflectance"));
         let glossy = Phong::new(Rgb::splat(0.4), Rgb::splat(0.5), 40.0).expect("reflectances");
-        let material = |name: &str, bsdf| Material { name: name.into(), bsdf: TwoSided::both(bsdf) };
+        let material = |name: &str, bsdf| {
+            let textures = <[_; 2]>::default();
+            Material { name: name.into(), bsdf: TwoSided::both(bsdf), textures }
+        };
         let view = View::look_at(Vec3::new(0.0, 3.0, 6.0), Vec3::Y * 0.5, Vec3::Y).expect("a view");
         Self(Description {
             name: "stage".into(),
@@ -64,7 +67,13 @@ impl Stage {
     #[must_use]
     pub fn with(mut self, shape: AnyShape, material: usize) -> Self {
         let name = format!("object {}", self.0.objects.len());
-        self.0.objects.push(Object { name, geometry: Geometry::Shape(shape), material, emission: None });
+        self.0.objects.push(Object {
+            name,
+            geometry: Geometry::Shape(shape),
+            material,
+            emission: None,
+            object_space: None,
+        });
         self
     }
 
@@ -72,7 +81,7 @@ impl Stage {
     #[must_use]
     pub fn lit(mut self, shape: AnyShape, radiance: f32) -> Self {
         self = self.with(shape, 0);
-        let emission = Emission { radiance: Rgb::splat(radiance), two_sided: false };
+        let emission = Emission { radiance: Rgb::splat(radiance), texture: None, two_sided: false };
         if let Some(object) = self.0.objects.last_mut() {
             object.emission = Some(emission);
         }
@@ -116,12 +125,13 @@ pub fn bumpy_ground(n: u32) -> SceneBuffers {
     });
     let mesh = Mesh {
         positions: grid.map(|(x, z)| Vec3::new(x, height(x, z), z)).collect(),
-        normals: Vec::new(),
+
         triangles: triangles.collect(),
+        ..Mesh::default()
     };
     let mut stage = Stage::empty();
     let (name, geometry) = ("ground".into(), Geometry::Mesh(mesh));
-    stage.0.objects.push(Object { name, geometry, material: 1, emission: None });
+    stage.0.objects.push(Object { name, geometry, material: 1, emission: None, object_space: None });
     stage.build()
 }
 

@@ -110,6 +110,47 @@ conformance!(polygon_two_sided, lights::polygon_two_sided());
 conformance!(cylinder_beside, lights::cylinder_beside());
 conformance!(cylinder_from_inside, lights::cylinder_from_inside());
 
+/// What surfaces with a picture pass, however they are sampled.
+macro_rules! painted_conformance {
+    ($name:ident, $subject:expr) => {
+        mod $name {
+            use halflight::light::SurfaceDensity;
+            use halflight_tests::{Verdict, lights};
+
+            fn by_each(check: impl Fn(SurfaceDensity) -> Verdict) -> Verdict {
+                check(SurfaceDensity::Area)?;
+                check(SurfaceDensity::SolidAngle)?;
+                check(SurfaceDensity::Auto)
+            }
+
+            #[test]
+            fn queried_density_equals_sampled_density() -> Verdict {
+                by_each(|density| lights::queried_density_equals_sampled_density(&$subject.by(density)))
+            }
+
+            #[test]
+            fn mean_reciprocal_density_is_the_solid_angle() -> Verdict {
+                by_each(|density| lights::mean_reciprocal_density_is_the_solid_angle(&$subject.by(density)))
+            }
+
+            #[test]
+            fn area_and_direction_sampling_agree() -> Verdict {
+                by_each(|density| lights::area_and_direction_sampling_agree(&$subject.by(density)))
+            }
+
+            #[test]
+            fn directions_pass_chi_square() -> Verdict {
+                by_each(|density| lights::directions_pass_chi_square(&$subject.by(density)))
+            }
+        }
+    };
+}
+
+painted_conformance!(painted_rectangle_overhead, lights::painted_rectangle(lights::rectangle_overhead()));
+painted_conformance!(painted_rectangle_near, lights::painted_rectangle(lights::rectangle_near()));
+painted_conformance!(painted_triangle_overhead, lights::painted_triangle(lights::triangle_overhead()));
+painted_conformance!(painted_sphere_ahead, lights::painted_sphere(lights::sphere(1.0, 3.0)));
+
 /// The same for a light around the scene.
 mod constant_over_a_slope {
     use halflight_tests::{Verdict, lights};
@@ -150,6 +191,8 @@ mod two_percent_are_noticed {
     fn by_the_mean_of_reciprocals() {
         let lying = scaled(lights::rectangle_overhead(), 1.02);
         assert!(lights::mean_reciprocal_density_is_the_solid_angle(&lying).is_err());
+        let lying = scaled(lights::painted_rectangle(lights::rectangle_overhead()), 1.02);
+        assert!(lights::mean_reciprocal_density_is_the_solid_angle(&lying).is_err());
         let lying = scaled(lights::constant_over_a_slope(), 1.02);
         assert!(lights::mean_reciprocal_density_is_the_solid_angle(&lying).is_err());
     }
@@ -163,6 +206,8 @@ mod two_percent_are_noticed {
     #[test]
     fn by_the_histogram() {
         let lying = scaled(lights::rectangle_overhead(), 1.02);
+        assert!(lights::directions_pass_chi_square(&lying).is_err());
+        let lying = scaled(lights::painted_rectangle(lights::rectangle_near()), 1.02);
         assert!(lights::directions_pass_chi_square(&lying).is_err());
         // Right in total, wrong in its shape.
         let lying = Lying { subject: lights::rectangle_overhead(), sampled: 1.0, queried: [1.02, 0.98] };

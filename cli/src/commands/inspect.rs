@@ -6,12 +6,13 @@ use crate::number::{bytes, counted, grouped};
 use crate::plan::{self, Plan};
 use crate::progress::Step;
 use crate::{scene, terminal};
-use halflight::bsdf::{AnyBsdf, TwoSided};
+use halflight::bsdf::AnyBsdf;
 use halflight::build::{CameraDescription, Description, ProjectionDescription, SceneBuffers, SceneStats};
 use halflight::bvh::STACK;
 use halflight::estimate::PixelStats;
 use halflight::film::Filter;
 use halflight::light::AnyLight;
+use halflight::material::AnyMaterial;
 use halflight::scene::AnyScene;
 use halflight::shape::AnyShape;
 use serde_json::{Map, Value, json};
@@ -84,8 +85,8 @@ fn contents(scene: AnyScene<'_>) -> Contents {
 }
 
 /// The kind of a material, by its front.
-fn bsdf_kind(bsdf: &TwoSided<AnyBsdf>) -> &'static str {
-    match bsdf.front {
+fn bsdf_kind(material: &AnyMaterial<'_>) -> &'static str {
+    match material.base().front {
         AnyBsdf::Lambert(_) => "diffuse",
         AnyBsdf::Phong(_) => "phong",
         AnyBsdf::GgxConductor(_) => "roughconductor",
@@ -221,6 +222,9 @@ fn left_out(scene: AnyScene<'_>, plan: Option<&Plan>) -> Vec<&'static str> {
         left_out.push("BSDF samples (no ray can meet a light)");
     } else if scene.materials().iter().all(|b| bsdf_kind(b) == "diffuse") {
         left_out.push("BSDF samples (every material is diffuse)");
+    }
+    if scene.materials().iter().all(|m| matches!(m, AnyMaterial::Plain(_))) {
+        left_out.push("textures (no material has one)");
     }
     if scene.surfaces().is_empty() {
         left_out.push("tree (no surface)");

@@ -2,7 +2,7 @@
 
 use super::error::check_reflectance;
 use super::fresnel::Conductor;
-use super::microfacet::Ggx;
+use super::microfacet::{Ggx, MIN_ALPHA};
 use super::{Bsdf, BsdfError, BsdfSample};
 use crate::Rgb;
 use glam::Vec3;
@@ -20,6 +20,9 @@ pub struct GgxConductor {
 }
 
 impl GgxConductor {
+    /// The smoothest surface that there is.
+    pub const MIN_ALPHA: f32 = MIN_ALPHA;
+
     /// From reflectance and roughness `α`, in `[1e-4, 1]`, the same in all directions.
     ///
     /// # Errors

@@ -6,7 +6,7 @@ use glam::Vec3;
 
 /// The smoothest surface that `f32` resolves: below it the lobe is narrower than the rounding of a
 /// unit vector.
-const MIN_ALPHA: f32 = 1e-4;
+pub(super) const MIN_ALPHA: f32 = 1e-4;
 
 /// A surface of GGX facets with Smith's masking.
 ///

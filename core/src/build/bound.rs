@@ -1,44 +1,54 @@
 //! The tables of a scene, bound to one another.
 
 use super::{BuildError, SceneBuffers};
-use crate::bsdf::{AnyBsdf, TwoSided};
 use crate::bvh::Bvh;
 use crate::light::{AnyLight, EnvironmentMap};
+use crate::material::AnyMaterial;
 use crate::scene::{AnyScene, Scene, Tables};
 use crate::shape::AnyShape;
 use std::borrow::Cow;
 use std::string::ToString;
 
-/// What a scene borrows from: lights that point to their pictures. Where nothing points to anything,
+/// What a scene borrows from: lights and materials that point to their pictures. Where nothing points to anything,
 /// the buffers' own tables, uncopied.
 #[derive(Debug, Clone)]
 pub struct BoundScene<'a> {
     buffers: &'a SceneBuffers,
     lights: Cow<'a, [AnyLight<'a>]>,
+    materials: Cow<'a, [AnyMaterial<'a>]>,
     bvh: Bvh<'a>,
 }
 
 impl<'a> BoundScene<'a> {
     pub(super) fn new(buffers: &'a SceneBuffers) -> Result<Self, BuildError> {
         let mut lights: Cow<'a, [AnyLight<'a>]> = Cow::Borrowed(&buffers.lights);
+        for painted in &buffers.painted {
+            lights.to_mut()[painted.light] = painted.bound();
+        }
         for environment in &buffers.environments {
             let image = &environment.image;
             let map = EnvironmentMap::new(&image.texels, image.width, image.height, environment.to_world)
                 .map_err(|source| BuildError::Light { object: "the environment map".to_string(), source })?;
             lights.to_mut().push(AnyLight::EnvironmentMap(map));
         }
-        let bound = Self { buffers, lights, bvh: Bvh::new(&buffers.nodes, buffers.surfaces.len())? };
+        let mut materials: Cow<'a, [AnyMaterial<'a>]> = Cow::Borrowed(&buffers.materials);
+        for (index, material) in &buffers.textured {
+            materials.to_mut()[*index] = material.bound()?;
+        }
+        let bvh = Bvh::new(&buffers.nodes, buffers.surfaces.len())?;
+        let bound = Self { buffers, lights, materials, bvh };
         Scene::new(bound.bvh, bound.tables())?;
         Ok(bound)
     }
 
-    fn tables(&self) -> Tables<'_, AnyShape, AnyLight<'_>, TwoSided<AnyBsdf>> {
+    fn tables(&self) -> Tables<'_, AnyShape, AnyLight<'_>, AnyMaterial<'_>> {
         Tables {
             surfaces: &self.buffers.surfaces,
             normals: &self.buffers.normals,
-            uvs: &[],
+            uvs: &self.buffers.uvs,
+            object_spaces: &self.buffers.object_spaces,
             lights: &self.lights,
-            materials: &self.buffers.materials,
+            materials: &self.materials,
         }
     }
 

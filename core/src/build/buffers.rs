@@ -1,27 +1,38 @@
 //! The tables of a scene, owned.
 
+use super::painted::PaintedBuffer;
 use super::primitives::{Primitive, list};
-use super::{BoundScene, BuildError, Description, EnvironmentDescription, LightTreeBuffers, build_tree};
-use crate::bsdf::{AnyBsdf, TwoSided};
+use super::{
+    BoundScene, BuildError, Description, EnvironmentDescription, LightTreeBuffers, Material, build_tree,
+};
 use crate::bvh::Node;
 use crate::choose::{LightTree, PowerTable};
 use crate::geom::Aabb;
 use crate::light::{AnyLight, Emitter};
-use crate::scene::{CornerNormals, NONE, Surface};
+use crate::material::AnyMaterial;
+use crate::scene::{CornerNormals, CornerUvs, NONE, Surface};
 use crate::shape::{AnyShape, Shape};
+use crate::texture::ObjectSpace;
 use core::mem::size_of_val;
+use std::collections::BTreeMap;
+use std::sync::Arc;
 use std::vec;
 use std::vec::Vec;
 
-/// Everything that a [`Scene`] borrows.
+/// Everything that a [`Scene`](crate::Scene) borrows.
 #[derive(Debug, Clone)]
 pub struct SceneBuffers {
     pub(super) nodes: Vec<Node>,
     pub(super) surfaces: Vec<Surface<AnyShape>>,
     pub(super) normals: Vec<CornerNormals>,
+    pub(super) uvs: Vec<CornerUvs>,
+    pub(super) object_spaces: Vec<ObjectSpace>,
     pub(super) lights: Vec<AnyLight<'static>>,
+    pub(super) painted: Vec<PaintedBuffer>,
     pub(super) environments: Vec<EnvironmentDescription>,
-    pub(super) materials: Vec<TwoSided<AnyBsdf>>,
+    pub(super) materials: Vec<AnyMaterial<'static>>,
+    /// Those that have textures, each with its index.
+    pub(super) textured: Vec<(usize, Material)>,
     power: Vec<f32>,
     light_tree: LightTreeBuffers,
     degenerate: usize,
@@ -49,6 +60,18 @@ pub struct SceneStats {
     pub bytes: usize,
 }
 
+/// The materials that have textures.
+fn textured(materials: &[Material]) -> Vec<(usize, Material)> {
+    materials.iter().enumerate().filter(|(_, m)| !m.is_plain()).map(|(i, m)| (i, m.clone())).collect()
+}
+
+/// Adds an entry to a table; its index, or [`NONE`] when there is none.
+fn entry<T>(table: &mut Vec<T>, value: Option<T>) -> u32 {
+    let Some(value) = value else { return NONE };
+    table.push(value);
+    table.len() as u32 - 1
+}
+
 impl SceneBuffers {
     /// Builds the tree and the tables of a description.
     ///
@@ -65,9 +88,13 @@ impl SceneBuffers {
             nodes: tree.nodes,
             surfaces: Vec::with_capacity(primitives.len()),
             normals: Vec::new(),
+            uvs: Vec::new(),
+            object_spaces: Vec::new(),
             lights: Vec::new(),
+            painted: Vec::new(),
             environments: description.environments.clone(),
-            materials: description.materials.iter().map(|m| m.bsdf).collect(),
+            materials: description.materials.iter().map(|m| AnyMaterial::Plain(m.bsdf)).collect(),
+            textured: textured(&description.materials),
             power: Vec::new(),
             light_tree: LightTreeBuffers::default(),
             degenerate,
@@ -78,22 +105,26 @@ impl SceneBuffers {
         Ok(buffers)
     }
 
-    /// Puts the surfaces where the tree looks for them; lights keep the order of the description, but
-    /// for those around the scene, which come last.
-    fn place(
+    /// Lists the lights in the order of the description, but for those around the scene, which come
+    /// last; the light that each primitive is, or [`NONE`].
+    fn list_lights(
         &mut self,
         description: &Description,
         primitives: &[Primitive],
-        order: &[u32],
-    ) -> Result<(), BuildError> {
+    ) -> Result<Vec<u32>, BuildError> {
         let (around, mut lights): (Vec<_>, Vec<_>) =
             description.lights.iter().partition::<Vec<AnyLight<'static>>, _>(|l| l.is_environment());
         let mut light_of = vec![NONE; primitives.len()];
         for (primitive, light) in primitives.iter().zip(&mut light_of) {
-            if description.objects[primitive.object as usize].emission.is_none() {
-                continue;
-            }
+            let object = &description.objects[primitive.object as usize];
+            let Some(emission) = &object.emission else { continue };
             let Some(shape) = primitive.shape(description) else { continue };
+            if emission.texture.is_some() {
+                let uvs = primitive.surface_uvs(description);
+                let Some(painted) = PaintedBuffer::new(lights.len(), object, shape, uvs)? else { continue };
+                self.painted.push(painted);
+            }
+            // Of a light with a picture this keeps the place only.
             if let Some(l) = primitive.light(description, shape)? {
                 *light = lights.len() as u32;
                 lights.push(l);
@@ -101,26 +132,51 @@ impl SceneBuffers {
         }
         lights.extend(around);
         self.lights = lights;
+        Ok(light_of)
+    }
+
+    /// Puts the surfaces where the tree looks for them.
+    fn place(
+        &mut self,
+        description: &Description,
+        primitives: &[Primitive],
+        order: &[u32],
+    ) -> Result<(), BuildError> {
+        let light_of = self.list_lights(description, primitives)?;
         for &index in order {
             let primitive = &primitives[index as usize];
             let Some(shape) = primitive.shape(description) else { continue };
-            let normals = match primitive.normals(description) {
-                Some(n) => {
-                    self.normals.push(n);
-                    self.normals.len() as u32 - 1
-                }
-                None => NONE,
-            };
-            let material = description.objects[primitive.object as usize].material as u32;
+            let material = description.objects[primitive.object as usize].material;
             self.surfaces.push(Surface {
                 shape,
-                material,
+                material: material as u32,
                 light: light_of[index as usize],
-                normals,
+                normals: entry(&mut self.normals, primitive.normals(description)),
                 uvs: NONE,
             });
         }
+        if description.materials.iter().any(Material::needs_uvs) {
+            self.lay_out(description, primitives, order);
+        }
         Ok(())
+    }
+
+    /// Gives texture coordinates to the surfaces whose material needs them.
+    fn lay_out(&mut self, description: &Description, primitives: &[Primitive], order: &[u32]) {
+        let needs_uvs = |p: &Primitive| {
+            description.materials[description.objects[p.object as usize].material].needs_uvs()
+        };
+        let of = |index: &u32| Some(&primitives[*index as usize]).filter(|p| needs_uvs(p));
+        for (surface, primitive) in self.surfaces.iter_mut().zip(order.iter().map(of)) {
+            surface.uvs = entry(&mut self.uvs, primitive.and_then(|p| p.uvs(description)));
+        }
+        let corners = self.uvs.len() as u32;
+        for (surface, primitive) in self.surfaces.iter_mut().zip(order.iter().map(of)) {
+            let space = primitive.and_then(|p| p.object_space(description));
+            if space.is_some() {
+                surface.uvs = corners + entry(&mut self.object_spaces, space);
+            }
+        }
     }
 
     /// Fills the table of cumulative powers, which stays empty where there is no power, and builds the
@@ -164,6 +220,15 @@ impl SceneBuffers {
         self.light_tree.tree().expect("checked when the buffers were made")
     }
 
+    /// Bytes of the textures' texels; shared ones count once.
+    fn texel_bytes(&self) -> usize {
+        let textures = self.textured.iter().flat_map(|(_, m)| &m.textures).flat_map(|t| t.iter());
+        let of_lights = self.painted.iter().filter_map(PaintedBuffer::texels);
+        let buffers = textures.filter_map(|t| t.texels.as_ref()).chain(of_lights);
+        let distinct: BTreeMap<_, _> = buffers.map(|b| (Arc::as_ptr(b), b.bytes())).collect();
+        distinct.values().sum()
+    }
+
     /// What the scene holds.
     #[must_use]
     pub fn stats(&self) -> SceneStats {
@@ -179,6 +244,10 @@ impl SceneBuffers {
             bytes: size_of_val(&*self.nodes)
                 + size_of_val(&*self.surfaces)
                 + size_of_val(&*self.normals)
+                + size_of_val(&*self.uvs)
+                + size_of_val(&*self.object_spaces)
+                + self.texel_bytes()
+                + self.painted.iter().map(PaintedBuffer::bytes).sum::<usize>()
                 + size_of_val(&*self.lights)
                 + size_of_val(&*self.materials)
                 + size_of_val(&*self.power)

@@ -3,6 +3,7 @@
 //! Loaders and the built-in scenes make one, exporters write one, and `SceneBuffers` (beside this
 //! file) turns it into the tables that a renderer borrows.
 
+use super::{MaterialTextures, TextureDescription};
 use crate::Rgb;
 use crate::bsdf::{AnyBsdf, TwoSided};
 use crate::camera::{Camera, CameraError, View};
@@ -10,7 +11,8 @@ use crate::film::Filter;
 use crate::light::AnyLight;
 use crate::num;
 use crate::shape::AnyShape;
-use glam::{Mat3, Vec3};
+use crate::texture::ObjectSpace;
+use glam::{Mat3, Vec2, Vec3};
 use std::string::String;
 use std::sync::Arc;
 use std::vec::Vec;
@@ -77,8 +79,11 @@ pub struct IntegratorDescription {
 pub struct Material {
     /// Its name; unique when not empty.
     pub name: String,
-    /// What the sides do.
+    /// What the sides do, where no texture says otherwise.
     pub bsdf: TwoSided<AnyBsdf>,
+    /// The textures of the front and of the back. Those of the back are not used when they and the
+    /// models of the two sides are the same.
+    pub textures: [MaterialTextures; 2],
 }
 
 /// A surface in the scene.
@@ -92,13 +97,18 @@ pub struct Object {
     pub material: usize,
     /// What it emits.
     pub emission: Option<Emission>,
+    /// Where its texture coordinates come from, when it is an analytic shape; `None` leaves them to
+    /// the shape.
+    pub object_space: Option<ObjectSpace>,
 }
 
 /// What a surface emits.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Emission {
-    /// Radiance (W m⁻² sr⁻¹).
+    /// Radiance (W m⁻² sr⁻¹), or what the texture is multiplied with.
     pub radiance: Rgb,
+    /// How the radiance varies over the surface.
+    pub texture: Option<TextureDescription>,
     /// From both sides, or only from the front.
     pub two_sided: bool,
 }
@@ -112,6 +122,15 @@ pub enum Geometry {
     Mesh(Mesh),
 }
 
+impl Geometry {
+    /// Leaves out texture coordinates, where no texture asks for them.
+    pub fn forget_uvs(&mut self) {
+        if let Self::Mesh(mesh) = self {
+            mesh.uvs = Vec::new();
+        }
+    }
+}
+
 /// Triangles with shared corners.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Mesh {
@@ -119,6 +138,8 @@ pub struct Mesh {
     pub positions: Vec<Vec3>,
     /// A shading normal for each corner, of unit length; empty for flat shading.
     pub normals: Vec<Vec3>,
+    /// Texture coordinates for each corner; empty when there are none.
+    pub uvs: Vec<Vec2>,
     /// Indices of corners, counter-clockwise seen from the front.
     pub triangles: Vec<[u32; 3]>,
 }

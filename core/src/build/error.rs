@@ -4,6 +4,7 @@ use crate::bvh::BvhError;
 use crate::choose::LightTreeError;
 use crate::light::LightError;
 use crate::scene::SceneError;
+use crate::texture::TextureError;
 use core::fmt;
 use std::string::String;
 
@@ -25,12 +26,20 @@ pub enum BuildError {
         /// The index that it names.
         material: usize,
     },
-    /// A mesh names a corner that does not exist, or has another number of normals than of corners.
+    /// A mesh names a corner that does not exist, or has another number of normals or texture
+    /// coordinates than of corners.
     Mesh {
         /// The object's name.
         object: String,
         /// The first triangle at fault.
         triangle: usize,
+    },
+    /// A texture was refused.
+    Texture {
+        /// The name of the material or the object that it is of.
+        of: String,
+        /// Why.
+        source: TextureError,
     },
     /// The tree was refused.
     Bvh(BvhError),
@@ -49,8 +58,9 @@ impl fmt::Display for BuildError {
             }
             Self::Mesh { object, triangle } => write!(
                 f,
-                "{object}: triangle {triangle} names a corner that the mesh does not have, or one without a normal"
+                "{object}: triangle {triangle} names a corner that the mesh does not have, or one without a normal or texture coordinates"
             ),
+            Self::Texture { of, source } => write!(f, "{of}: {source}"),
             Self::Bvh(e) => write!(f, "the tree over the scene was refused: {e}"),
             Self::LightTree(e) => write!(f, "the tree over the lights was refused: {e}"),
             Self::Scene(e) => write!(f, "the scene was refused: {e}"),

@@ -5,7 +5,9 @@ mod buffers;
 mod description;
 mod error;
 mod light_tree;
+mod painted;
 mod primitives;
+mod texture;
 mod tree;
 
 pub use bound::BoundScene;
@@ -16,4 +18,5 @@ pub use description::{
 };
 pub use error::BuildError;
 pub use light_tree::LightTreeBuffers;
+pub use texture::{MaterialTextures, TexelBuffer, TextureDescription};
 pub use tree::{Tree, build_tree};

@@ -2,8 +2,9 @@
 
 use super::{BuildError, Description, Geometry, Mesh, Object};
 use crate::light::{AnyLight, AreaLight};
-use crate::scene::CornerNormals;
+use crate::scene::{CornerNormals, CornerUvs};
 use crate::shape::{AnyShape, Triangle};
+use crate::texture::{ObjectSpace, SurfaceUvs};
 use std::string::ToString;
 use std::vec::Vec;
 
@@ -43,8 +44,9 @@ pub(super) fn list(description: &Description) -> Result<(Vec<Primitive>, usize),
 
 fn check_triangle(object: &Object, mesh: &Mesh, triangle: usize) -> Result<(), BuildError> {
     let corners = mesh.positions.len();
-    let normals = if mesh.normals.is_empty() { corners } else { mesh.normals.len() };
-    let there = mesh.triangles[triangle].iter().all(|&i| (i as usize) < corners.min(normals));
+    let enough = |len: usize| if len == 0 { corners } else { len };
+    let least = corners.min(enough(mesh.normals.len())).min(enough(mesh.uvs.len()));
+    let there = mesh.triangles[triangle].iter().all(|&i| (i as usize) < least);
     if there { Ok(()) } else { Err(BuildError::Mesh { object: object.name.to_string(), triangle }) }
 }
 
@@ -59,6 +61,11 @@ impl Mesh {
     pub(super) fn corner_normals(&self, triangle: usize) -> Option<CornerNormals> {
         (!self.normals.is_empty())
             .then(|| CornerNormals(self.triangles[triangle].map(|i| self.normals[i as usize])))
+    }
+
+    /// The texture coordinates of one of its triangles; `None` when it has none.
+    pub(super) fn corner_uvs(&self, triangle: usize) -> Option<CornerUvs> {
+        (!self.uvs.is_empty()).then(|| CornerUvs(self.triangles[triangle].map(|i| self.uvs[i as usize])))
     }
 }
 
@@ -79,6 +86,29 @@ impl Primitive {
         }
     }
 
+    /// Its texture coordinates, when it is a triangle that has some.
+    pub(super) fn uvs(&self, description: &Description) -> Option<CornerUvs> {
+        match &description.objects[self.object as usize].geometry {
+            Geometry::Shape(_) => None,
+            Geometry::Mesh(mesh) => mesh.corner_uvs(self.triangle as usize),
+        }
+    }
+
+    /// Where its texture coordinates come from, when it is an analytic shape.
+    pub(super) fn object_space(&self, description: &Description) -> Option<ObjectSpace> {
+        let object = &description.objects[self.object as usize];
+        object.object_space.filter(|_| matches!(object.geometry, Geometry::Shape(_)))
+    }
+
+    /// Its texture coordinates, wherever they come from.
+    pub(super) fn surface_uvs(&self, description: &Description) -> SurfaceUvs {
+        match (self.uvs(description), self.object_space(description)) {
+            (Some(corners), _) => SurfaceUvs::Corners(corners),
+            (None, Some(space)) => SurfaceUvs::Object(space),
+            (None, None) => SurfaceUvs::Own,
+        }
+    }
+
     /// The light that it is.
     pub(super) fn light(
         &self,
@@ -86,7 +116,8 @@ impl Primitive {
         shape: AnyShape,
     ) -> Result<Option<AnyLight<'static>>, BuildError> {
         let object = &description.objects[self.object as usize];
-        let Some(emission) = object.emission.filter(|e| !e.radiance.is_valid() || !e.radiance.is_black())
+        let Some(emission) =
+            object.emission.as_ref().filter(|e| !e.radiance.is_valid() || !e.radiance.is_black())
         else {
             return Ok(None);
         };

@@ -25,16 +25,22 @@ impl<'a> PowerTable<'a> {
     /// Fills a table from powers, summed in double precision; false when there is no power at all.
     /// Beyond 2²³ lights not every one has a share.
     pub fn fill(cumulative: &mut [f32], power: impl Fn(usize) -> f32) -> bool {
+        cumulative.iter_mut().enumerate().for_each(|(i, entry)| *entry = power(i));
+        Self::accumulate(cumulative)
+    }
+
+    /// [`PowerTable::fill`] where the powers are: each gives way to the end of its share.
+    pub(crate) fn accumulate(entries: &mut [f32]) -> bool {
         // Beyond `f32` is very bright, not dark.
         let usable = |p: f32| if p > 0.0 { f64::from(p.min(f32::MAX)) } else { 0.0 };
         let (mut total, mut left) = (0.0, 0_u32);
-        for p in (0..cumulative.len()).map(|i| usable(power(i))).filter(|&p| p > 0.0) {
+        for p in entries.iter().map(|&p| usable(p)).filter(|&p| p > 0.0) {
             total += p;
             left = left.saturating_add(1);
         }
         let (mut sum, mut end) = (0.0, 0);
-        for (i, entry) in cumulative.iter_mut().enumerate() {
-            let p = usable(power(i));
+        for entry in entries {
+            let p = usable(*entry);
             if p > 0.0 {
                 sum += p;
                 left = left.saturating_sub(1);

@@ -21,6 +21,11 @@ pub(super) struct Shading<'s, B> {
 impl<'s, B: Bsdf> Shading<'s, B> {
     /// * `wo` – unit direction to the viewer, world space
     /// * `tangent` – computes the surface's tangent; called only where the BSDF needs it
+    ///
+    /// Where the viewer sees the geometric front and the interpolated back, or the other way round, the
+    /// geometric normal is taken. Differs from Mitsuba 3, which is black there: silhouettes of coarse
+    /// meshes have no dark rim. Light through the geometric surface is left out; in Mitsuba it leaks
+    /// where nothing else is in the way.
     #[inline]
     pub(super) fn new(at: &'s Interaction, bsdf: B, wo: Vec3, tangent: impl FnOnce() -> Vec3) -> Self {
         let front = at.at.normal.dot(wo) >= 0.0;

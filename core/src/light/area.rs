@@ -3,8 +3,8 @@
 use super::error::check_emission;
 use super::view::Keep;
 use super::{
-    Cone, Density, Emitter, LightBounds, LightError, LightSample, Receiver, SurfaceDensity, SurfaceView,
-    UseView,
+    Cone, Density, Emitter, LightBounds, LightError, LightSample, Painted, Receiver, SurfaceDensity,
+    SurfaceRadiance, SurfaceView, UseView,
 };
 use crate::Rgb;
 use crate::num::PI;
@@ -72,11 +72,13 @@ pub trait SampledShape: Shape {
     }
 }
 
-/// A surface that emits the same radiance from each point into each direction of its side or sides.
+/// A surface that emits the same radiance into each direction of its side or sides.
+///
+/// * `R` – the radiance of its places: [`Rgb`] when all have the same
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct AreaLight<S> {
+pub struct AreaLight<S, R = Rgb> {
     shape: S,
-    radiance: Rgb,
+    radiance: R,
     sides: Sides,
 }
 
@@ -90,6 +92,22 @@ impl<S: SampledShape> AreaLight<S> {
     pub fn new(shape: S, radiance: Rgb) -> Result<Self, LightError> {
         let radiance = check_emission("the radiance", radiance)?;
         Ok(Self { shape, radiance, sides: Sides::Front })
+    }
+}
+
+impl<'a, S: SampledShape> AreaLight<S, Painted<'a>> {
+    /// A light with a texture, emitting from the side that the shape's normal points to.
+    #[must_use]
+    pub const fn painted(shape: S, radiance: Painted<'a>) -> Self {
+        Self { shape, radiance, sides: Sides::Front }
+    }
+}
+
+impl<S: SampledShape, R: SurfaceRadiance> AreaLight<S, R> {
+    /// The radiance of its places.
+    #[must_use]
+    pub const fn surface_radiance(&self) -> &R {
+        &self.radiance
     }
 
     /// The same light, emitting from both sides.
@@ -112,7 +130,7 @@ impl<S: SampledShape> AreaLight<S> {
 
     /// Radiance, as average over the channels (W m⁻² sr⁻¹).
     pub(super) fn mean_radiance(&self) -> f32 {
-        self.radiance.average()
+        self.radiance.mean().average()
     }
 
     /// The density over what `from` sees of the light: for embedders that draw many samples at one
@@ -125,13 +143,13 @@ impl<S: SampledShape> AreaLight<S> {
 
     /// Cosine on the emitting side; 0 or less where nothing is emitted.
     #[inline]
-    fn cos_light(&self, normal: Vec3, wi: Vec3) -> f32 {
+    pub(super) fn cos_light(&self, normal: Vec3, wi: Vec3) -> f32 {
         let cos = -normal.dot(wi);
         if self.sides == Sides::Both { cos.abs() } else { cos }
     }
 }
 
-impl<S: SampledShape> Emitter for AreaLight<S> {
+impl<S: SampledShape, R: SurfaceRadiance> Emitter for AreaLight<S, R> {
     #[inline]
     fn sample(&self, from: &Receiver, method: SurfaceDensity, u: [f32; 2]) -> Option<LightSample> {
         self.shape.with_view(from, method, self.sides, Draw { light: self, from, u })
@@ -148,13 +166,17 @@ impl<S: SampledShape> Emitter for AreaLight<S> {
 
     #[inline]
     fn radiance(&self, at: &SurfacePoint, wo: Vec3) -> Rgb {
-        if self.sides == Sides::Both || at.normal.dot(wo) > 0.0 { self.radiance } else { Rgb::BLACK }
+        if self.sides == Sides::Both || at.normal.dot(wo) > 0.0 {
+            self.radiance.at(&self.shape, at.point)
+        } else {
+            Rgb::BLACK
+        }
     }
 
-    /// `E = L` times the projected solid angle.
+    /// `E = L` times the projected solid angle, when the radiance is the same everywhere.
     #[inline]
     fn unshadowed_irradiance(&self, from: &Receiver) -> Option<Rgb> {
-        let irradiance = self.radiance * self.shape.projected_solid_angle(from, self.sides)?;
+        let irradiance = self.radiance.uniform()? * self.shape.projected_solid_angle(from, self.sides)?;
         irradiance.is_finite().then_some(irradiance)
     }
 
@@ -165,18 +187,18 @@ impl<S: SampledShape> Emitter for AreaLight<S> {
     /// `π A L`, twice when both sides emit.
     fn power(&self, _scene_radius: f32) -> f32 {
         let sides = if self.sides == Sides::Both { 2.0 } else { 1.0 };
-        sides * PI * self.shape.area() * self.radiance.average()
+        sides * PI * self.shape.area() * self.radiance.mean().average()
     }
 }
 
 /// Draws a sample.
-struct Draw<'a, S> {
-    light: &'a AreaLight<S>,
+struct Draw<'a, S, R> {
+    light: &'a AreaLight<S, R>,
     from: &'a Receiver,
     u: [f32; 2],
 }
 
-impl<S: SampledShape> UseView<S::View> for Draw<'_, S> {
+impl<S: SampledShape, R: SurfaceRadiance> UseView<S::View> for Draw<'_, S, R> {
     type Output = LightSample;
 
     #[inline(always)]
@@ -191,7 +213,7 @@ impl<S: SampledShape> UseView<S::View> for Draw<'_, S> {
         Some(LightSample {
             wi: sample.wi,
             distance: sample.distance,
-            incident: light.radiance,
+            incident: light.radiance.at(&light.shape, sample.at.point),
             density: Density::SolidAngle(pdf),
         })
     }

@@ -1,6 +1,6 @@
 //! Where a light is and whither it shines, for choosing among many.
 
-use super::AreaLight;
+use super::{AreaLight, SurfaceRadiance};
 use super::area::{SampledShape, Sides};
 use crate::geom::{Aabb, unit};
 use crate::num::{self, FRAC_PI_2, PI, larger};
@@ -105,7 +105,7 @@ impl LightBounds {
     }
 }
 
-impl<S: SampledShape> AreaLight<S> {
+impl<S: SampledShape, R: SurfaceRadiance> AreaLight<S, R> {
     /// Its box and its normals; `L A` as intensity.
     pub(super) fn light_bounds(&self) -> LightBounds {
         let (region, normals) = (self.shape().bounds(), self.shape().normals());

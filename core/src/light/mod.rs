@@ -13,9 +13,12 @@ mod directional;
 mod disk;
 mod environment;
 mod error;
+mod luminance;
+mod painted;
 mod point;
 mod polygon;
 mod projected_view;
+mod radiance;
 mod rectangle;
 #[cfg(test)]
 mod round;
@@ -32,9 +35,12 @@ pub use density::SurfaceDensity;
 pub use directional::Directional;
 pub use environment::EnvironmentMap;
 pub use error::LightError;
+pub use luminance::LuminanceGrid;
+pub use painted::{PaintedLight, PaintedRectangle};
 pub use point::Point;
 pub use polygon::PolygonSolidAngle;
 pub use projected_view::{FlatShape, ProjectedView};
+pub use radiance::{Paint, Painted, SurfaceRadiance};
 pub use rectangle::RectangleSolidAngle;
 pub use spot::Spot;
 pub use triangle::TriangleSolidAngle;
@@ -158,6 +164,8 @@ pub enum AnyLight<'a> {
     Triangle(AreaLight<Triangle>),
     /// A cylinder that emits.
     Cylinder(AreaLight<Cylinder>),
+    /// A surface that emits a picture.
+    Painted(PaintedLight<'a>),
     /// A point.
     Point(Point),
     /// A point with a cone.
@@ -179,6 +187,7 @@ macro_rules! each_light {
             AnyLight::Sphere($inner) => $body,
             AnyLight::Triangle($inner) => $body,
             AnyLight::Cylinder($inner) => $body,
+            AnyLight::Painted($inner) => $body,
             AnyLight::Point($inner) => $body,
             AnyLight::Spot($inner) => $body,
             AnyLight::Directional($inner) => $body,
@@ -190,12 +199,13 @@ macro_rules! each_light {
 
 impl AnyLight<'_> {
     /// The kinds of light, by name.
-    pub const NAMES: [&'static str; 10] = [
+    pub const NAMES: [&'static str; 11] = [
         "rectangle",
         "disk",
         "sphere",
         "triangle",
         "cylinder",
+        "painted",
         "point",
         "spot",
         "directional",
@@ -212,11 +222,12 @@ impl AnyLight<'_> {
             Self::Sphere(_) => 2,
             Self::Triangle(_) => 3,
             Self::Cylinder(_) => 4,
-            Self::Point(_) => 5,
-            Self::Spot(_) => 6,
-            Self::Directional(_) => 7,
-            Self::Constant(_) => 8,
-            Self::EnvironmentMap(_) => 9,
+            Self::Painted(_) => 5,
+            Self::Point(_) => 6,
+            Self::Spot(_) => 7,
+            Self::Directional(_) => 8,
+            Self::Constant(_) => 9,
+            Self::EnvironmentMap(_) => 10,
         };
         Self::NAMES[index]
     }

@@ -1,5 +1,6 @@
 //! Why a scene was not read: where, what, and what would be accepted.
 
+use super::image::ImageError;
 use super::mesh_error::MeshError;
 use super::suggest::nearest;
 use crate::bsdf::BsdfError;
@@ -7,6 +8,7 @@ use crate::camera::CameraError;
 use crate::film::FilmError;
 use crate::light::LightError;
 use crate::shape::ShapeError;
+use crate::texture::TextureError;
 use core::fmt;
 use std::boxed::Box;
 use std::io;
@@ -159,6 +161,15 @@ pub enum Problem {
         /// Why.
         source: MeshError,
     },
+    /// A picture was refused.
+    Image {
+        /// Its file.
+        path: PathBuf,
+        /// Why.
+        source: ImageError,
+    },
+    /// A texture was refused.
+    Texture(TextureError),
     /// A shape was refused.
     Shape(ShapeError),
     /// A light was refused.
@@ -243,6 +254,8 @@ impl fmt::Display for Problem {
             Self::TooLarge { what, limit } => write!(f, "{what}: more than {limit}"),
             Self::File { path, source } => write!(f, "{}: {source}", path.display()),
             Self::Mesh { path, source } => write!(f, "{}: {source}", path.display()),
+            Self::Image { path, source } => write!(f, "{}: {source}", path.display()),
+            Self::Texture(e) => e.fmt(f),
             Self::Shape(e) => e.fmt(f),
             Self::Light(e) => e.fmt(f),
             Self::Bsdf(e) => e.fmt(f),
@@ -299,4 +312,4 @@ macro_rules! problem_from {
     };
 }
 
-problem_from!(ShapeError => Shape, LightError => Light, BsdfError => Bsdf, CameraError => Camera, FilmError => Film);
+problem_from!(TextureError => Texture, ShapeError => Shape, LightError => Light, BsdfError => Bsdf, CameraError => Camera, FilmError => Film);

@@ -127,8 +127,8 @@ mod tests {
         let p = |x, y, z| Vec3::new(x, y, z);
         Mesh {
             positions: [p(-1., -1., 0.), p(1., -1., 0.), p(1., 1., 0.5), p(-1., 1., 0.)].to_vec(),
-            normals: Vec::new(),
             triangles: [[0, 1, 2], [0, 2, 3], [1, 1, 2]].to_vec(),
+            ..Mesh::default()
         }
     }
 

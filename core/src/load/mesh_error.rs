@@ -44,7 +44,7 @@ pub enum MeshError {
         /// Number of its corners.
         corners: usize,
     },
-    /// A coordinate is NaN or infinite, or becomes so by the transform.
+    /// A coordinate, of a place or of textures, is NaN or infinite, or becomes so by the transform.
     NotFinite {
         /// The vertex, from 0.
         vertex: usize,

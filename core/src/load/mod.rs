@@ -7,15 +7,18 @@
 pub mod builtin;
 mod error;
 mod export;
+mod image;
 mod mesh;
 mod mesh_error;
 mod mitsuba;
 mod obj;
 mod ply;
+mod serialized;
 mod suggest;
 
 pub use error::{LoadError, Position, Problem, Warning};
 pub use export::{ExportError, export_mitsuba};
+pub use image::{Encoding, ImageError, MAX_TEXELS, read_image, read_texels, srgb_to_linear, write_exr};
 pub use mesh_error::MeshError;
 
 use crate::build::Description;

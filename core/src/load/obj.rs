@@ -1,4 +1,5 @@
-//! OBJ files: positions, normals and faces; everything else in them is left to others.
+//! OBJ files: positions, normals, texture coordinates and faces; everything else in them is left to
+//! others.
 //!
 //! All groups and objects of a file become one mesh, as in Mitsuba 3, so that computed normals are
 //! smooth across them. A corner is shared where faces give the same position, texture coordinate and
@@ -6,7 +7,7 @@
 
 use super::MeshError;
 use crate::build::Mesh;
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use std::collections::HashMap;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader};
@@ -40,12 +41,14 @@ type Corner = [i64; 3];
 struct Obj {
     line: usize,
     positions: Vec<Vec3>,
-    texture_coordinates: usize,
+    uvs: Vec<Vec2>,
     normals: Vec<Vec3>,
     corners: HashMap<Corner, u32>,
     mesh: Mesh,
-    /// Corners without a normal.
+    /// True when a corner has no normal.
     without_normal: bool,
+    /// True when a corner has texture coordinates.
+    with_uvs: bool,
 }
 
 impl Obj {
@@ -60,7 +63,10 @@ impl Obj {
                 let normal = self.vector(words)?;
                 self.normals.push(normal);
             }
-            Some("vt") => self.texture_coordinates += 1,
+            Some("vt") => {
+                let [u, v] = self.numbers(words, "two texture coordinates are needed")?;
+                self.uvs.push(Vec2::new(u, v));
+            }
             Some("f") => self.face(words)?,
             _ => {}
         }
@@ -72,15 +78,21 @@ impl Obj {
     }
 
     fn vector<'w>(&self, words: impl Iterator<Item = &'w str>) -> Result<Vec3, MeshError> {
+        self.numbers(words, "three coordinates are needed").map(Vec3::from_array)
+    }
+
+    /// The first `N` numbers of a line.
+    fn numbers<'w, const N: usize>(
+        &self,
+        words: impl Iterator<Item = &'w str>,
+        needed: &str,
+    ) -> Result<[f32; N], MeshError> {
         let numbers: Vec<f32> = words
-            .take(3)
+            .take(N)
             .map(|w| w.parse().ok().filter(|v: &f32| v.is_finite()))
             .collect::<Option<_>>()
             .ok_or_else(|| self.malformed("a coordinate is not a finite number"))?;
-        match numbers.as_slice() {
-            &[x, y, z] => Ok(Vec3::new(x, y, z)),
-            _ => Err(self.malformed("three coordinates are needed")),
-        }
+        numbers.try_into().map_err(|_| self.malformed(needed))
     }
 
     fn face<'w>(&mut self, words: impl Iterator<Item = &'w str>) -> Result<(), MeshError> {
@@ -95,7 +107,7 @@ impl Obj {
 
     /// The mesh's index of a corner, written `v`, `v/vt`, `v//vn` or `v/vt/vn`.
     fn corner(&mut self, word: &str) -> Result<u32, MeshError> {
-        let lengths = [self.positions.len(), self.texture_coordinates, self.normals.len()];
+        let lengths = [self.positions.len(), self.uvs.len(), self.normals.len()];
         let mut corner = [-1; 3];
         let mut parts = word.split('/');
         for (index, length) in corner.iter_mut().zip(lengths) {
@@ -112,6 +124,9 @@ impl Obj {
         let new = u32::try_from(self.corners.len()).map_err(|_| self.malformed("too many corners"))?;
         self.corners.insert(corner, new);
         self.mesh.positions.push(self.positions[corner[0] as usize]);
+        // A corner without them is at the origin of textures; Mitsuba leaves it undefined.
+        self.mesh.uvs.push(usize::try_from(corner[1]).map_or(Vec2::ZERO, |uv| self.uvs[uv]));
+        self.with_uvs |= corner[1] >= 0;
         match usize::try_from(corner[2]) {
             Ok(normal) => self.mesh.normals.push(self.normals[normal]),
             Err(_) => self.without_normal = true,
@@ -135,6 +150,9 @@ impl Obj {
         if self.without_normal {
             // Some corners have none: all are computed.
             self.mesh.normals = Vec::new();
+        }
+        if !self.with_uvs {
+            self.mesh.uvs = Vec::new();
         }
         if self.mesh.triangles.is_empty() {
             return Err(MeshError::Missing { what: "faces (lines that start with f) are" });
@@ -179,6 +197,14 @@ mod tests {
     }
 
     #[test]
+    fn texture_coordinates_belong_to_corners() {
+        let mesh = parse(&(SQUARE.to_string() + "vt .5 .25\nvt 1 0 0\nf 1/1 2/2 3\nf 1/2 2/2 3\n")).unwrap();
+        assert_eq!(mesh.triangles, [[0, 1, 2], [3, 1, 2]]);
+        assert_eq!(mesh.uvs, [Vec2::new(0.5, 0.25), Vec2::X, Vec2::ZERO, Vec2::X]);
+        assert!(parse(&(SQUARE.to_string() + "vt .5 .25\nf 1 2 3\n")).unwrap().uvs.is_empty());
+    }
+
+    #[test]
     fn bad_lines_are_refused_with_their_number() {
         for bad in [
             "f 1 2 5",
@@ -196,6 +222,8 @@ mod tests {
             "v 1 nan 2",
             "v inf 0 0",
             "vn 0 0",
+            "vt 0",
+            "vt nan 0",
         ] {
             let result = parse(&(SQUARE.to_string() + bad + "\nf 1 2 3\n"));
             assert!(matches!(result, Err(MeshError::Malformed { line: Some(7), .. })), "{bad}: {result:?}");

@@ -56,6 +56,15 @@ pub fn clamp(x: f32, low: f32, high: f32) -> f32 {
     if x < high { x } else { high }
 }
 
+/// `x` less the largest whole number below it, in `[0, 1)`; 0 for NaN, and where `f32` has no fractions.
+#[inline]
+#[must_use]
+pub fn fraction(x: f32) -> f32 {
+    let rest = x - (x as i32) as f32;
+    let rest = if rest < 0.0 { rest + 1.0 } else { rest };
+    if (0.0..1.0).contains(&rest) { rest } else { 0.0 }
+}
+
 /// Square root in double precision; NaN below 0.
 #[inline]
 #[must_use]

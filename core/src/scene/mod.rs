@@ -8,11 +8,10 @@ mod tables;
 pub use tables::{CornerNormals, CornerUvs, NONE, SceneError, Surface, Tables};
 
 use crate::Rgb;
-use crate::bsdf::{AnyBsdf, TwoSided};
 use crate::bvh::Bvh;
 use crate::geom::{PreparedRay, Ray, offset_origin};
 use crate::light::{AnyLight, Emitter};
-use crate::material::Material;
+use crate::material::{AnyMaterial, Material};
 use crate::shape::{AnyShape, Shape, ShapeHit, SurfacePoint};
 use glam::{Vec2, Vec3};
 
@@ -40,7 +39,7 @@ impl<S, L, M> Clone for Scene<'_, S, L, M> {
 impl<S, L, M> Copy for Scene<'_, S, L, M> {}
 
 /// The scene that holds any shape, light and material.
-pub type AnyScene<'a> = Scene<'a, AnyShape, AnyLight<'a>, TwoSided<AnyBsdf>>;
+pub type AnyScene<'a> = Scene<'a, AnyShape, AnyLight<'a>, AnyMaterial<'a>>;
 
 /// What a ray has met.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -164,18 +163,21 @@ impl<'a, S: Shape, L: Emitter, M: Material> Scene<'a, S, L, M> {
         }
     }
 
-    /// Texture coordinates of a hit: those between the corners of a triangle that has some, else the
-    /// shape's own.
+    /// Texture coordinates of a hit: those between the corners of a triangle, or of the unit shape,
+    /// where the surface has such; else the shape's own.
     #[inline]
     #[must_use]
     pub fn uv(&self, hit: &Interaction) -> Vec2 {
-        let uvs = self.tables.surfaces.get(hit.surface as usize).map_or(NONE, |s| s.uvs);
-        match self.tables.uvs.get(uvs as usize) {
-            Some(CornerUvs([a, b, c])) => {
-                *a * (1.0 - hit.place.x - hit.place.y) + *b * hit.place.x + *c * hit.place.y
-            }
-            None => hit.place,
+        let Some(surface) = self.tables.surfaces.get(hit.surface as usize) else { return Vec2::ZERO };
+        let index = surface.uvs as usize;
+        if let Some(corners) = self.tables.uvs.get(index) {
+            return corners.at(hit.place.x, hit.place.y);
         }
+        let unit = match self.tables.object_spaces.get(index.wrapping_sub(self.tables.uvs.len())) {
+            Some(space) => space.unit_point(hit.at.point),
+            None => surface.shape.unit_point(hit.at.point),
+        };
+        surface.shape.uv(unit)
     }
 
     /// Direction in which the first texture coordinate grows at a hit, of any length and either sign;
@@ -183,8 +185,13 @@ impl<'a, S: Shape, L: Emitter, M: Material> Scene<'a, S, L, M> {
     #[must_use]
     pub fn tangent(&self, hit: &Interaction) -> Vec3 {
         let Some(surface) = self.tables.surfaces.get(hit.surface as usize) else { return Vec3::ZERO };
+        let index = surface.uvs as usize;
+        if let Some(space) = self.tables.object_spaces.get(index.wrapping_sub(self.tables.uvs.len())) {
+            let unit = surface.shape.unit_tangent(space.unit_point(hit.at.point));
+            return space.to_object.inverse() * unit;
+        }
         let tangents = surface.shape.tangents(hit.at.point);
-        match self.tables.uvs.get(surface.uvs as usize) {
+        match self.tables.uvs.get(index) {
             Some(corners) => corners.tangent(tangents),
             None => tangents[0],
         }

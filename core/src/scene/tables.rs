@@ -1,6 +1,7 @@
 //! The tables that a scene borrows.
 
 use crate::light::Emitter;
+use crate::texture::ObjectSpace;
 use core::fmt;
 use glam::{Vec2, Vec3};
 
@@ -18,7 +19,8 @@ pub struct Surface<S> {
     pub light: u32,
     /// Index of its shading normals, or [`NONE`]; for triangles.
     pub normals: u32,
-    /// Index of its texture coordinates, or [`NONE`]; for triangles.
+    /// Index of its texture coordinates, or [`NONE`] for the shape's own: first come the entries of
+    /// [`Tables::uvs`], for triangles, then those of [`Tables::object_spaces`], for other shapes.
     pub uvs: u32,
 }
 
@@ -31,6 +33,14 @@ pub struct CornerNormals(pub [Vec3; 3]);
 pub struct CornerUvs(pub [Vec2; 3]);
 
 impl CornerUvs {
+    /// Those of the point with barycentric coordinates `1 − b1 − b2`, `b1`, `b2`.
+    #[inline]
+    #[must_use]
+    pub fn at(&self, b1: f32, b2: f32) -> Vec2 {
+        let [a, b, c] = self.0;
+        a * (1.0 - b1 - b2) + b * b1 + c * b2
+    }
+
     /// Direction in which the first coordinate grows, of any length and either sign; zero where the
     /// coordinates have no area.
     ///
@@ -52,6 +62,8 @@ pub struct Tables<'a, S, L, M> {
     pub normals: &'a [CornerNormals],
     /// Texture coordinates of triangles.
     pub uvs: &'a [CornerUvs],
+    /// What gives other shapes their texture coordinates.
+    pub object_spaces: &'a [ObjectSpace],
     /// The lights; those that surround the scene come last.
     pub lights: &'a [L],
     /// The materials.
@@ -60,7 +72,8 @@ pub struct Tables<'a, S, L, M> {
 
 impl<S, L, M> Tables<'_, S, L, M> {
     /// Nothing at all: for the tables that a scene does without.
-    pub const EMPTY: Self = Self { surfaces: &[], normals: &[], uvs: &[], lights: &[], materials: &[] };
+    pub const EMPTY: Self =
+        Self { surfaces: &[], normals: &[], uvs: &[], object_spaces: &[], lights: &[], materials: &[] };
 }
 
 // Not derived: tables are copied as views, whatever they hold.
@@ -117,7 +130,7 @@ impl<S, L: Emitter, M> Tables<'_, S, L, M> {
                 ("materials", (s.material as usize) < self.materials.len()),
                 ("lights", has(s.light, self.lights.len())),
                 ("shading normals", has(s.normals, self.normals.len())),
-                ("texture coordinates", has(s.uvs, self.uvs.len())),
+                ("texture coordinates", has(s.uvs, self.uvs.len() + self.object_spaces.len())),
             ] {
                 if !ok {
                     return Err(SceneError::IndexOutOfRange { surface, table });

@@ -1,10 +1,10 @@
 //! Open cylinders.
 
 use super::sphere::roots;
-use super::{Shape, ShapeError, ShapeHit, SurfacePoint};
-use crate::geom::{Aabb, PreparedRay, Ray, unit};
+use super::{Shape, ShapeError, ShapeHit, SurfacePoint, turn};
+use crate::geom::{Aabb, Frame, PreparedRay, Ray, unit};
 use crate::num::{self, TAU};
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
 /// A cylinder without caps. Its normal points away from the axis, or toward it after
 /// [`Cylinder::flipped`].
@@ -135,6 +135,23 @@ impl Shape for Cylinder {
         let r = ray.at(hit.t) - self.base - self.axis * hit.v;
         let a = self.unit_axis();
         self.point(hit.v, unit(r - a * r.dot(a)).unwrap_or(Vec3::X))
+    }
+
+    /// On the cylinder of radius 1 from `z = 0` to `z = 1`, turned as [`Frame::from_normal`] turns
+    /// the axis.
+    fn unit_point(&self, point: Vec3) -> Vec3 {
+        let (h, n) = self.coordinates(point);
+        let frame = Frame::from_normal(self.unit_axis());
+        Vec3::new(n.dot(frame.s), n.dot(frame.t), h)
+    }
+
+    /// Angle in turns, and height.
+    fn uv(&self, unit: Vec3) -> Vec2 {
+        Vec2::new(turn(unit), unit.z)
+    }
+
+    fn unit_tangent(&self, unit: Vec3) -> Vec3 {
+        Vec3::new(-unit.y, unit.x, 0.0)
     }
 
     /// Around the axis, and along it.

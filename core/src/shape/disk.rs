@@ -1,10 +1,10 @@
 //! Disks and ellipses.
 
 use super::planar::Planar;
-use super::{Shape, ShapeError, ShapeHit, SurfacePoint};
+use super::{Shape, ShapeError, ShapeHit, SurfacePoint, turn};
 use crate::geom::{Aabb, PreparedRay, Ray};
 use crate::num::{self, PI};
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
 /// A disk, or an ellipse: a centre and two semi-axes at right angles. Its normal is `axis_u × axis_v`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -92,6 +92,21 @@ impl Shape for Disk {
     #[inline]
     fn surface_point(&self, _ray: &Ray, hit: &ShapeHit) -> SurfacePoint {
         self.0.surface_point(hit.u, hit.v)
+    }
+
+    /// On the unit disk.
+    fn unit_point(&self, point: Vec3) -> Vec3 {
+        let (x, y) = self.coordinates(point);
+        Vec3::new(x, y, 0.0)
+    }
+
+    /// Radius, and angle in turns.
+    fn uv(&self, unit: Vec3) -> Vec2 {
+        Vec2::new(num::sqrt(unit.x * unit.x + unit.y * unit.y), turn(unit))
+    }
+
+    fn unit_tangent(&self, unit: Vec3) -> Vec3 {
+        Vec3::new(unit.x, unit.y, 0.0)
     }
 
     /// Away from the centre, and around it.

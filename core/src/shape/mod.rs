@@ -20,7 +20,8 @@ pub use sphere::Sphere;
 pub use triangle::Triangle;
 
 use crate::geom::{Aabb, PreparedRay, Ray};
-use glam::Vec3;
+use crate::num;
+use glam::{Vec2, Vec3};
 
 /// Where a ray meets a shape, in the shape's own coordinates.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,10 +72,30 @@ pub trait Shape: Copy {
     /// The surface point of a hit that [`Shape::intersect`] has found.
     fn surface_point(&self, ray: &Ray, hit: &ShapeHit) -> SurfacePoint;
 
+    /// The point of the unit shape that a surface point is the image of, as far as the shape itself
+    /// knows: [`crate::texture::ObjectSpace`] knows more.
+    fn unit_point(&self, point: Vec3) -> Vec3;
+
+    /// Texture coordinates of a point of the unit shape; those of Mitsuba 3.
+    fn uv(&self, unit: Vec3) -> Vec2;
+
+    /// Direction on the unit shape in which the first of them grows, of any length.
+    fn unit_tangent(&self, unit: Vec3) -> Vec3 {
+        let _ = unit;
+        Vec3::X
+    }
+
     /// Directions in which the shape's own two texture coordinates grow at a point of it, as in Mitsuba
     /// 3; of any length and either sign, but for a triangle, which gives its edges. Zero where there are
     /// none.
     fn tangents(&self, point: Vec3) -> [Vec3; 2];
+}
+
+/// Angle of a point about the third axis, in turns from the first, in `[0, 1]`.
+#[inline]
+fn turn(unit: Vec3) -> f32 {
+    let turns = num::atan2(unit.y, unit.x) * (0.5 * num::FRAC_1_PI);
+    if turns < 0.0 { turns + 1.0 } else { turns }
 }
 
 /// Any of the shapes: what a frontend that reads arbitrary scenes uses.
@@ -140,6 +161,18 @@ impl Shape for AnyShape {
     #[inline]
     fn surface_point(&self, ray: &Ray, hit: &ShapeHit) -> SurfacePoint {
         each_shape!(self, s => s.surface_point(ray, hit))
+    }
+
+    fn unit_point(&self, point: Vec3) -> Vec3 {
+        each_shape!(self, s => s.unit_point(point))
+    }
+
+    fn uv(&self, unit: Vec3) -> Vec2 {
+        each_shape!(self, s => s.uv(unit))
+    }
+
+    fn unit_tangent(&self, unit: Vec3) -> Vec3 {
+        each_shape!(self, s => s.unit_tangent(unit))
     }
 
     fn tangents(&self, point: Vec3) -> [Vec3; 2] {

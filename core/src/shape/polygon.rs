@@ -1,9 +1,9 @@
 //! Convex polygons in a plane.
 
 use super::{Shape, ShapeError, ShapeHit, SurfacePoint, Triangle};
-use crate::geom::{Aabb, PreparedRay, Ray};
+use crate::geom::{Aabb, PreparedRay, Ray, unit};
 use crate::num;
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 
 /// How far a corner may be off the plane or inside an edge, in units of the largest coordinate: the
 /// round-off of a rotation in single precision.
@@ -172,6 +172,19 @@ impl Shape for Polygon {
         let index = (hit.u as usize).min(self.fan_len() - 1);
         let along = hit.u - index as f32;
         self.place(index, hit.v * (1.0 - along), hit.v * along)
+    }
+
+    /// In the plane of the polygon, from its first corner, the first axis along its first edge (m).
+    fn unit_point(&self, point: Vec3) -> Vec3 {
+        let [first, second] = [self.corners()[0], self.corners()[1]];
+        let along = unit(second - first).unwrap_or(Vec3::X);
+        let arm = point - first;
+        Vec3::new(arm.dot(along), arm.dot(self.normal().cross(along)), 0.0)
+    }
+
+    /// The first two coordinates: Mitsuba has no polygons.
+    fn uv(&self, unit: Vec3) -> Vec2 {
+        Vec2::new(unit.x, unit.y)
     }
 
     /// Along the first edge, and across it.

@@ -3,7 +3,7 @@
 use super::planar::Planar;
 use super::{Shape, ShapeError, ShapeHit, SurfacePoint};
 use crate::geom::{Aabb, PreparedRay, Ray};
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
 /// How far outside its edges a rectangle is still met, in units of the half-edge: a few roundings,
 /// so that two rectangles that share an edge leave no gap.
@@ -93,6 +93,17 @@ impl Shape for Rectangle {
     #[inline]
     fn surface_point(&self, _ray: &Ray, hit: &ShapeHit) -> SurfacePoint {
         self.0.surface_point(hit.u, hit.v)
+    }
+
+    /// From a corner at `(−1, −1)` to one at `(1, 1)`.
+    fn unit_point(&self, point: Vec3) -> Vec3 {
+        let (x, y) = self.coordinates(point);
+        Vec3::new(x, y, 0.0)
+    }
+
+    /// 0 to 1 along each edge.
+    fn uv(&self, unit: Vec3) -> Vec2 {
+        Vec2::new(0.5 * unit.x + 0.5, 0.5 * unit.y + 0.5)
     }
 
     /// Along the edges.

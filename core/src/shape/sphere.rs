@@ -1,9 +1,9 @@
 //! Spheres.
 
-use super::{Shape, ShapeError, ShapeHit, SurfacePoint};
+use super::{Shape, ShapeError, ShapeHit, SurfacePoint, turn};
 use crate::geom::{Aabb, PreparedRay, Ray, unit};
 use crate::num::{self, PI};
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
 /// A sphere. Its normal points outward, or inward after [`Sphere::flipped`].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -110,6 +110,21 @@ impl Shape for Sphere {
     fn surface_point(&self, ray: &Ray, hit: &ShapeHit) -> SurfacePoint {
         // Pulled back onto the surface: the error does not depend on the distance of the origin.
         self.point(unit(ray.at(hit.t) - self.centre).unwrap_or(Vec3::Z))
+    }
+
+    /// On the unit sphere, with the world's axes.
+    fn unit_point(&self, point: Vec3) -> Vec3 {
+        (point - self.centre) / self.radius
+    }
+
+    /// Longitude in turns, and angle from the third axis in half turns.
+    fn uv(&self, unit: Vec3) -> Vec2 {
+        let across = num::sqrt(unit.x * unit.x + unit.y * unit.y);
+        Vec2::new(turn(unit), num::atan2(across, unit.z) * num::FRAC_1_PI)
+    }
+
+    fn unit_tangent(&self, unit: Vec3) -> Vec3 {
+        Vec3::new(-unit.y, unit.x, 0.0)
     }
 
     /// Around the third axis of the world, and away from that axis' upper end.

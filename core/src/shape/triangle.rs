@@ -3,7 +3,7 @@
 use super::{Shape, ShapeError, ShapeHit, SurfacePoint};
 use crate::geom::{Aabb, PreparedRay, Ray, unit};
 use crate::num;
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 
 /// A triangle. Its normal is `(b − a) × (c − a)`: counter-clockwise corners face the viewer.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -148,6 +148,17 @@ impl Shape for Triangle {
     #[inline]
     fn surface_point(&self, _ray: &Ray, hit: &ShapeHit) -> SurfacePoint {
         self.point(hit.u, hit.v)
+    }
+
+    /// On the triangle with corners `(0, 0)`, `(1, 0)` and `(0, 1)`.
+    fn unit_point(&self, point: Vec3) -> Vec3 {
+        let (b1, b2) = self.coordinates(point);
+        Vec3::new(b1, b2, 0.0)
+    }
+
+    /// Barycentric coordinates of the second and third corner.
+    fn uv(&self, unit: Vec3) -> Vec2 {
+        Vec2::new(unit.x, unit.y)
     }
 
     /// Along the edges from the first corner.

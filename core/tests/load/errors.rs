@@ -56,10 +56,9 @@ fn what_mitsuba_has_and_halflight_does_not_says_what_to_write_instead() {
     for (body, part) in [
         ("<emitter type=\"envmap\"/>", "environment map is not supported; use <emitter type=\"constant\">"),
         ("<emitter type=\"area\"/>", "put it into the <shape>"),
-        ("<shape type=\"serialized\"/>", "convert the mesh to .ply"),
         (
-            "<bsdf type=\"diffuse\" id=\"a\"><texture type=\"bitmap\" name=\"reflectance\"/></bsdf>",
-            "a texture is not supported",
+            "<bsdf type=\"phong\" id=\"a\"><texture type=\"bitmap\" name=\"exponent\"/></bsdf>",
+            "a texture is not supported; give the property one value",
         ),
         (
             "<bsdf type=\"diffuse\" id=\"a\"><spectrum name=\"reflectance\" value=\"400:1, 700:0\"/></bsdf>",

@@ -144,7 +144,7 @@ fn triangles_are_written_as_meshes() {
     let path = folder("triangle-out").join("out.xml");
     export_mitsuba(&description, &path).unwrap();
     let expected =
-        Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], normals: vec![], triangles: vec![[0, 1, 2]] };
+        Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]], ..Mesh::default() };
     assert_eq!(read(&path).objects[0].geometry, Geometry::Mesh(expected));
 }
 

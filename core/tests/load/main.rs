@@ -6,6 +6,7 @@ mod export;
 mod files;
 mod geometry;
 mod scenes;
+mod textures;
 
 use halflight::build::Description;
 use halflight::load::{LoadError, LoadOptions, Loaded, load};

@@ -137,9 +137,15 @@ fn emission_goes_with_the_shape_and_its_material() {
                 <shape type=\"sphere\"><emitter type=\"area\"/></shape>";
     let description = scene("emission", body);
     let lamp = &description.objects[0];
-    assert_eq!(lamp.emission.map(|e| (e.radiance, e.two_sided)), Some((Rgb::new(1.0, 2.0, 3.0), true)));
+    assert_eq!(
+        lamp.emission.as_ref().map(|e| (e.radiance, e.two_sided)),
+        Some((Rgb::new(1.0, 2.0, 3.0), true))
+    );
     assert_eq!(description.materials[lamp.material].name, "glass");
-    assert_eq!(description.objects[1].emission.map(|e| (e.radiance, e.two_sided)), Some((Rgb::WHITE, false)));
+    assert_eq!(
+        description.objects[1].emission.as_ref().map(|e| (e.radiance, e.two_sided)),
+        Some((Rgb::WHITE, false))
+    );
     let sphere = &description.objects[1];
     assert_eq!(sphere.name, "sphere");
     assert!(

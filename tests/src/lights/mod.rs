@@ -3,11 +3,13 @@
 mod checks;
 mod extremes;
 mod fixtures;
+mod painted;
 mod specimen;
 
 pub use checks::*;
 pub use extremes::extreme_distances_stay_finite;
 pub use fixtures::*;
+pub use painted::{Pictured, painted_rectangle, painted_sphere, painted_triangle};
 pub use specimen::Specimen;
 
 use halflight::geom::{PreparedRay, Ray};

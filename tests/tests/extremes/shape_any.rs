@@ -140,7 +140,7 @@ fn interpolated_normals_do_not_change_the_mean() -> Verdict {
     let panel = AnyShape::Rectangle(rectangle_facing_down(1.0, 1.0, 1.0, Vec3::new(0.4, 0.2, 0.0)));
     let positions = vec![Vec3::new(-9.0, -8.0, 0.0), Vec3::new(9.0, -8.0, 0.0), Vec3::new(0.0, 9.0, 0.0)];
     let normals = [Vec3::new(0.6, 0.0, 0.8), Vec3::new(-0.36, 0.48, 0.8), Vec3::new(0.8, 0.0, 0.6)];
-    let mesh = Mesh { positions, normals: normals.to_vec(), triangles: vec![[0, 1, 2]] };
+    let mesh = Mesh { positions, normals: normals.to_vec(), triangles: vec![[0, 1, 2]], ..Mesh::default() };
     let mut stage = Stage::empty().lit(panel, 3.0);
     let name = "floor".into();
     stage.0.objects.push(Object {
@@ -148,6 +148,7 @@ fn interpolated_normals_do_not_change_the_mean() -> Verdict {
         geometry: Geometry::Mesh(mesh),
         material: 2,
         emission: None::<Emission>,
+        object_space: None,
     });
     let (buffers, eye) = (stage.build(), Vec3::new(0.2, -0.5, 1.0));
     let by_light = Direct { technique: Technique::Light, ..Direct::default() };

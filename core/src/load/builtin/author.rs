@@ -97,7 +97,7 @@ pub(super) struct Author {
 
 impl Author {
     fn material(&mut self, name: &str, bsdf: TwoSided<AnyBsdf>) -> usize {
-        self.materials.push(Material { name: name.into(), bsdf });
+        self.materials.push(Material { name: name.into(), bsdf, textures: <[_; 2]>::default() });
         self.materials.len() - 1
     }
 
@@ -133,7 +133,13 @@ impl Author {
     /// Triangles.
     pub(super) fn mesh(&mut self, name: &str, mesh: Mesh, material: usize) {
         let geometry = Geometry::Mesh(mesh);
-        self.objects.push(Object { name: name.into(), geometry, material, emission: None });
+        self.objects.push(Object {
+            name: name.into(),
+            geometry,
+            material,
+            emission: None,
+            object_space: None,
+        });
     }
 
     /// A surface that emits from its front and reflects nothing.
@@ -147,8 +153,14 @@ impl Author {
             Some(index) => index,
             None => self.matte("lamp", [0.0; 3])?,
         };
-        let emission = Some(Emission { radiance: radiance.into(), two_sided: false });
-        self.objects.push(Object { name: name.into(), geometry, material: black, emission });
+        let emission = Some(Emission { radiance: radiance.into(), texture: None, two_sided: false });
+        self.objects.push(Object {
+            name: name.into(),
+            geometry,
+            material: black,
+            emission,
+            object_space: None,
+        });
         Ok(())
     }
 

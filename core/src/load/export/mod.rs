@@ -1,4 +1,4 @@
-//! Writes a scene as Mitsuba 3 XML with binary PLY meshes.
+//! Writes a scene as Mitsuba 3 XML with binary PLY meshes, and pictures as PNG or OpenEXR.
 //!
 //! What is written loads in Mitsuba, and loads here to the same scene, except for what Mitsuba does
 //! not have: surfaces that emit from both sides, and the Phong model. Those are written in the
@@ -9,6 +9,7 @@ mod file;
 mod names;
 mod parts;
 mod ply;
+mod textures;
 mod xml;
 
 pub use error::ExportError;
@@ -23,9 +24,11 @@ use std::io::Write;
 use std::path::Path;
 use std::string::String;
 use std::vec::Vec;
+use textures::Pictures;
 use xml::Xml;
 
-/// Writes a scene to `path`, and its meshes beside it as `<stem>-<object>.ply`. A file is written
+/// Writes a scene to `path`, and its meshes beside it as `<stem>-<object>.ply`, its
+/// textures as `<stem>-texture.png` or `.exr`, numbered. A file is written
 /// under another name and renamed when it is complete.
 ///
 /// # Errors
@@ -36,10 +39,11 @@ pub fn export_mitsuba(description: &Description, path: &Path) -> Result<(), Expo
     let stem = file_name(&stem.to_string_lossy());
     let mut ids = Names::default();
     let mut files = Names::default();
+    let mut pictures = Pictures::new(path, &stem);
     let mut xml = Xml::new();
     parts::integrator(&mut xml, description);
     parts::sensor(&mut xml, description);
-    let materials = materials(&mut xml, &mut ids, description);
+    let materials = materials(&mut xml, &mut ids, &mut pictures, description)?;
     for (index, object) in description.objects.iter().enumerate() {
         let material = materials.get(object.material).ok_or(ExportError::Material { object: index })?;
         let mesh = as_mesh(&object.geometry);
@@ -48,7 +52,7 @@ pub fn export_mitsuba(description: &Description, path: &Path) -> Result<(), Expo
         if let Some((mesh, file)) = mesh.as_deref().zip(file.as_deref()) {
             write_whole(&path.with_file_name(file), |out| ply::write(out, mesh))?;
         }
-        shape(&mut xml, &mut ids, object, file.as_deref(), material);
+        shape(&mut xml, &mut ids, &mut pictures, object, file.as_deref(), material)?;
     }
     for light in &description.lights {
         parts::light(&mut xml, light)?;
@@ -58,20 +62,25 @@ pub fn export_mitsuba(description: &Description, path: &Path) -> Result<(), Expo
 }
 
 /// How shapes refer to each material: by the id under which it is written, or by repeating it.
-fn materials(xml: &mut Xml, ids: &mut Names, description: &Description) -> Vec<String> {
+fn materials(
+    xml: &mut Xml,
+    ids: &mut Names,
+    pictures: &mut Pictures<'_>,
+    description: &Description,
+) -> Result<Vec<String>, ExportError> {
     description
         .materials
         .iter()
         .map(|material| {
             let mut inner = Xml::nested();
             if material.name.is_empty() {
-                parts::bsdf(&mut inner, &material.bsdf, None);
-                return inner.into_body();
+                parts::bsdf(&mut inner, pictures, material, None)?;
+                return Ok(inner.into_body());
             }
             let id = ids.unique(&names::id(&material.name));
-            parts::bsdf(xml, &material.bsdf, Some(&id));
+            parts::bsdf(xml, pictures, material, Some(&id))?;
             inner.empty("ref", &[("id", &id)]);
-            inner.into_body()
+            Ok(inner.into_body())
         })
         .collect()
 }
@@ -82,15 +91,22 @@ fn as_mesh(geometry: &Geometry) -> Option<Cow<'_, Mesh>> {
         Geometry::Mesh(mesh) => Some(Cow::Borrowed(mesh)),
         Geometry::Shape(AnyShape::Triangle(triangle)) => Some(Cow::Owned(Mesh {
             positions: triangle.corners().to_vec(),
-            normals: Vec::new(),
             triangles: [[0, 1, 2]].to_vec(),
+            ..Mesh::default()
         })),
         Geometry::Shape(_) => None,
     }
 }
 
 /// Writes an object. Its id is left out when it is only the name of its kind.
-fn shape(xml: &mut Xml, ids: &mut Names, object: &Object, file: Option<&str>, material: &str) {
+fn shape(
+    xml: &mut Xml,
+    ids: &mut Names,
+    pictures: &mut Pictures<'_>,
+    object: &Object,
+    file: Option<&str>,
+    material: &str,
+) -> Result<(), ExportError> {
     let kind = parts::shape_kind(&object.geometry);
     let named = !object.name.is_empty() && object.name != kind;
     let id = named.then(|| ids.unique(&names::id(&object.name)));
@@ -103,12 +119,22 @@ fn shape(xml: &mut Xml, ids: &mut Names, object: &Object, file: Option<&str>, ma
                 xml.property("boolean", "face_normals", "true");
             }
         }
-        (None, Geometry::Shape(shape)) => parts::analytic(xml, shape),
+        (None, Geometry::Shape(shape)) => match &object.object_space {
+            Some(space) => parts::in_object_space(xml, shape, space),
+            None => parts::analytic(xml, shape),
+        },
         (None, Geometry::Mesh(_)) => {}
     }
     xml.raw(material);
     if let Some(emission) = &object.emission {
-        parts::emission(xml, emission);
+        parts::emission(xml, pictures, emission)?;
     }
     xml.close("shape");
+    Ok(())
+}
+
+/// Digits of a coordinate: those of single precision when it is one.
+fn digits(v: f64) -> String {
+    let single = v as f32;
+    if f64::from(single) == v { format!("{single:?}") } else { format!("{v:?}") }
 }

@@ -1,19 +1,22 @@
 //! The parts of a scene in Mitsuba's words.
 
-use super::ExportError;
+use super::textures::Pictures;
 use super::xml::Xml;
+use super::{ExportError, digits};
+use crate::Rgb;
 use crate::bsdf::{AnyBsdf, GgxConductor, RoughPlastic, TwoSided};
 use crate::build::{
-    CameraDescription, Description, Emission, FovAxis, Geometry, IntegratorDescription, ProjectionDescription,
+    CameraDescription, Description, Emission, FovAxis, Geometry, IntegratorDescription, Material,
+    MaterialTextures, ProjectionDescription, TextureDescription,
 };
 use crate::camera::View;
 use crate::film::Filter;
 use crate::geom::Frame;
 use crate::light::{AnyLight, Emitter, Spot};
 use crate::shape::AnyShape;
-use glam::{DVec3, Vec3};
+use crate::texture::{Kind, ObjectSpace, Pattern};
+use glam::{DMat3, DVec3, Vec3};
 use std::format;
-use std::string::String;
 
 /// Mitsuba refuses a near distance of 0.
 const NEAREST: f32 = 1e-6;
@@ -108,40 +111,78 @@ fn film(xml: &mut Xml, description: &Description) {
     xml.close("film");
 }
 
-pub(super) fn bsdf(xml: &mut Xml, bsdf: &TwoSided<AnyBsdf>, id: Option<&str>) {
-    let Some(back) = &bsdf.back else { return one_sided(xml, &bsdf.front, id) };
+pub(super) fn bsdf(
+    xml: &mut Xml,
+    pictures: &mut Pictures<'_>,
+    material: &Material,
+    id: Option<&str>,
+) -> Result<(), ExportError> {
+    let (TwoSided { front, back }, textures) = (&material.bsdf, &material.textures);
+    let Some(back) = back else { return one_sided(xml, pictures, front, &textures[0], id) };
     xml.open_plugin("bsdf", "twosided", id);
-    one_sided(xml, &bsdf.front, None);
-    if *back != bsdf.front {
-        one_sided(xml, back, None);
+    one_sided(xml, pictures, front, &textures[0], None)?;
+    if back != front || textures[0] != textures[1] {
+        one_sided(xml, pictures, back, &textures[1], None)?;
     }
     xml.close("bsdf");
+    Ok(())
 }
 
-fn one_sided(xml: &mut Xml, bsdf: &AnyBsdf, id: Option<&str>) {
+fn one_sided(
+    xml: &mut Xml,
+    pictures: &mut Pictures<'_>,
+    bsdf: &AnyBsdf,
+    textures: &MaterialTextures,
+    id: Option<&str>,
+) -> Result<(), ExportError> {
+    let scale = Rgb::splat(textures.scale);
+    let diffuse = textures.diffuse.as_ref().map(|t| (t, scale));
+    let specular = textures.specular.as_ref().map(|t| (t, scale));
     match bsdf {
         AnyBsdf::Lambert(b) => {
             xml.open_plugin("bsdf", "diffuse", id);
-            xml.rgb("reflectance", b.reflectance());
+            pictures.colour(xml, "reflectance", b.reflectance(), diffuse)?;
         }
         AnyBsdf::Phong(b) => {
             xml.remark("phong is the plugin of Mitsuba 0.6; Mitsuba 3 needs it to be registered");
             xml.open_plugin("bsdf", "phong", id);
-            xml.rgb("diffuse_reflectance", b.diffuse());
-            xml.rgb("specular_reflectance", b.specular());
+            pictures.colour(xml, "diffuse_reflectance", b.diffuse(), diffuse)?;
+            pictures.colour(xml, "specular_reflectance", b.specular(), specular)?;
             xml.float("exponent", b.exponent());
         }
-        AnyBsdf::GgxConductor(b) => rough_conductor(xml, b, id),
-        AnyBsdf::RoughPlastic(b) => rough_plastic(xml, b, id),
+        AnyBsdf::GgxConductor(b) => {
+            rough_conductor(xml, b, textures.roughness.is_some(), id);
+            if let Some(roughness) = &textures.roughness {
+                pictures.colour(xml, "alpha", Rgb::BLACK, Some((&for_one_number(roughness), Rgb::WHITE)))?;
+            }
+            pictures.colour(xml, "specular_reflectance", b.reflectance(), specular)?;
+        }
+        AnyBsdf::RoughPlastic(b) => {
+            rough_plastic(xml, b, id);
+            pictures.colour(xml, "diffuse_reflectance", b.diffuse(), diffuse)?;
+            pictures.colour(xml, "specular_reflectance", b.specular(), specular)?;
+        }
     }
     xml.close("bsdf");
+    Ok(())
 }
 
-fn rough_conductor(xml: &mut Xml, bsdf: &GgxConductor, id: Option<&str>) {
+/// Where Mitsuba asks a checkerboard for one number, the colours change places.
+fn for_one_number(texture: &TextureDescription) -> TextureDescription {
+    let mut texture = texture.clone();
+    if let Kind::Checkerboard([a, b]) = texture.pattern.kind() {
+        let swapped = Pattern::from(Kind::Checkerboard([b, a]));
+        texture.pattern = swapped.with_transform(texture.pattern.transform());
+    }
+    texture
+}
+
+fn rough_conductor(xml: &mut Xml, bsdf: &GgxConductor, textured: bool, id: Option<&str>) {
     xml.open_plugin("bsdf", "roughconductor", id);
     xml.property("string", "material", "none");
     xml.property("string", "distribution", "ggx");
     match bsdf.alpha() {
+        _ if textured => {}
         [along, across] if along == across => xml.float("alpha", along),
         [along, across] => {
             xml.float("alpha_u", along);
@@ -152,7 +193,6 @@ fn rough_conductor(xml: &mut Xml, bsdf: &GgxConductor, id: Option<&str>) {
         xml.rgb("eta", eta);
         xml.rgb("k", k);
     }
-    xml.rgb("specular_reflectance", bsdf.reflectance());
 }
 
 fn rough_plastic(xml: &mut Xml, bsdf: &RoughPlastic, id: Option<&str>) {
@@ -161,8 +201,6 @@ fn rough_plastic(xml: &mut Xml, bsdf: &RoughPlastic, id: Option<&str>) {
     xml.float("alpha", bsdf.alpha());
     xml.float("int_ior", bsdf.eta());
     xml.float("ext_ior", 1.0);
-    xml.rgb("diffuse_reflectance", bsdf.diffuse());
-    xml.rgb("specular_reflectance", bsdf.specular());
     if bsdf.is_nonlinear() {
         xml.property("boolean", "nonlinear", "true");
     }
@@ -209,26 +247,46 @@ pub(super) fn analytic(xml: &mut Xml, shape: &AnyShape) {
     }
 }
 
-/// Digits of a coordinate: those of single precision when it is one.
-fn digits(v: f64) -> String {
-    let single = v as f32;
-    if f64::from(single) == v { format!("{single:?}") } else { format!("{v:?}") }
-}
-
 fn coordinates(xml: &mut Xml, tag: &str, name: &str, v: DVec3) {
     xml.empty(tag, &[("name", name), ("x", &digits(v.x)), ("y", &digits(v.y)), ("z", &digits(v.z))]);
 }
 
-pub(super) fn emission(xml: &mut Xml, emission: &Emission) {
+/// The same as the image of the unit shape, whose turn textures show.
+pub(super) fn in_object_space(xml: &mut Xml, shape: &AnyShape, space: &ObjectSpace) {
+    let to_world = space.to_object.as_dmat3().inverse();
+    let DMat3 { x_axis, y_axis, z_axis } = to_world;
+    matrix(xml, [x_axis, y_axis, z_axis, space.origin.as_dvec3()]);
+    let upward =
+        |normal: Vec3| to_world.inverse().transpose().mul_vec3(DVec3::Z).dot(normal.as_dvec3()) > 0.0;
+    let flipped = match shape {
+        AnyShape::Triangle(_) => false,
+        AnyShape::Rectangle(s) => !upward(s.normal()),
+        AnyShape::Disk(s) => !upward(s.normal()),
+        // A mirrored sphere is seen from inside, a mirrored cylinder is not.
+        AnyShape::Sphere(s) => s.is_inward() != (to_world.determinant() < 0.0),
+        AnyShape::Cylinder(s) => s.is_inward(),
+    };
+    if flipped {
+        xml.property("boolean", "flip_normals", "true");
+    }
+}
+
+pub(super) fn emission(
+    xml: &mut Xml,
+    pictures: &mut Pictures<'_>,
+    emission: &Emission,
+) -> Result<(), ExportError> {
     if emission.two_sided {
         xml.remark("two_sided is not known to Mitsuba");
     }
     xml.open_plugin("emitter", "area", None);
-    xml.rgb("radiance", emission.radiance);
+    let texture = emission.texture.as_ref().map(|t| (t, emission.radiance));
+    pictures.colour(xml, "radiance", emission.radiance, texture)?;
     if emission.two_sided {
         xml.property("boolean", "two_sided", "true");
     }
     xml.close("emitter");
+    Ok(())
 }
 
 /// A light without a surface.
@@ -239,6 +297,7 @@ pub(super) fn light(xml: &mut Xml, light: &AnyLight) -> Result<(), ExportError> 
         | AnyLight::Sphere(_)
         | AnyLight::Triangle(_)
         | AnyLight::Cylinder(_)
+        | AnyLight::Painted(_)
         | AnyLight::EnvironmentMap(_) => return Err(ExportError::SurfaceLight { kind: light.name() }),
         AnyLight::Point(l) => {
             xml.open_plugin("emitter", "point", None);

@@ -4,11 +4,14 @@ use super::context::Context;
 use super::element::Element;
 use super::ior;
 use super::properties::Properties;
+use super::texture;
 use crate::Rgb;
 use crate::bsdf::{AnyBsdf, GgxConductor, Lambert, Phong, RoughPlastic, TwoSided};
+use crate::build::{Material, MaterialTextures, TextureDescription};
 use crate::load::{LoadError, Problem};
 use std::borrow::ToOwned;
 use std::format;
+use std::string::String;
 
 const NAMES: [&str; 5] = ["diffuse", "phong", "roughconductor", "roughplastic", "twosided"];
 const ONE_SIDED: [&str; 4] = ["diffuse", "phong", "roughconductor", "roughplastic"];
@@ -16,13 +19,18 @@ const ONE_SIDED: [&str; 4] = ["diffuse", "phong", "roughconductor", "roughplasti
 /// The smoothest surface that is kept as written.
 const MIN_ALPHA: f64 = 1e-4;
 
-/// A material for both sides of a surface.
-pub(super) fn read(context: &mut Context<'_>, element: &Element) -> Result<TwoSided<AnyBsdf>, LoadError> {
-    if element.plugin("bsdf", &NAMES)? == "twosided" {
-        two_sided(context, element)
+/// One side of a material.
+type Side = (AnyBsdf, MaterialTextures);
+
+/// A material for both sides of a surface, without a name.
+pub(super) fn read(context: &mut Context<'_>, element: &Element) -> Result<Material, LoadError> {
+    let (bsdf, textures) = if element.plugin("bsdf", &NAMES)? == "twosided" {
+        two_sided(context, element)?
     } else {
-        one_sided(context, element).map(TwoSided::front_only)
-    }
+        let (front, textures) = one_sided(context, element)?;
+        (TwoSided::front_only(front), [textures, MaterialTextures::default()])
+    };
+    Ok(Material { name: String::new(), bsdf, textures })
 }
 
 /// What a surface without a `<bsdf>` has: grey, or black where it emits, as in Mitsuba 3.
@@ -30,7 +38,10 @@ pub(super) fn default(emits: bool) -> Result<TwoSided<AnyBsdf>, crate::bsdf::Bsd
     Lambert::new(Rgb::splat(if emits { 0.0 } else { 0.5 })).map(AnyBsdf::Lambert).map(TwoSided::front_only)
 }
 
-fn two_sided(context: &mut Context<'_>, element: &Element) -> Result<TwoSided<AnyBsdf>, LoadError> {
+fn two_sided(
+    context: &mut Context<'_>,
+    element: &Element,
+) -> Result<(TwoSided<AnyBsdf>, [MaterialTextures; 2]), LoadError> {
     let mut properties = Properties::new(element)?;
     let mut sides = properties.nested(&["bsdf", "ref"]).into_iter();
     let mut side = |context: &mut Context<'_>| match sides.next() {
@@ -46,23 +57,25 @@ fn two_sided(context: &mut Context<'_>, element: &Element) -> Result<TwoSided<An
         return Err(third.error(Problem::NotSupported { what, instead: "give one or two" }));
     }
     properties.finish(context)?;
-    Ok(TwoSided { front, back: Some(back.unwrap_or(front)) })
+    let (back, back_textures) = back.unwrap_or_else(|| front.clone());
+    Ok((TwoSided { front: front.0, back: Some(back) }, [front.1, back_textures]))
 }
 
-fn one_sided(context: &mut Context<'_>, element: &Element) -> Result<AnyBsdf, LoadError> {
+fn one_sided(context: &mut Context<'_>, element: &Element) -> Result<Side, LoadError> {
     let kind = element.plugin("bsdf for one side", &ONE_SIDED)?;
     let mut properties = Properties::new(element)?;
-    let bsdf = match kind {
+    let side = match kind {
         "diffuse" => {
-            let reflectance = properties.reflectance("reflectance")?.unwrap_or(Rgb::splat(0.5));
-            AnyBsdf::Lambert(Lambert::new(reflectance).map_err(|e| element.error(e))?)
+            let (reflectance, diffuse) = texture::reflectance(context, &mut properties, "reflectance", 0.5)?;
+            let bsdf = Lambert::new(reflectance).map_err(|e| element.error(e))?;
+            (AnyBsdf::Lambert(bsdf), MaterialTextures { diffuse, ..MaterialTextures::default() })
         }
-        "phong" => AnyBsdf::Phong(phong(context, element, &mut properties)?),
-        "roughconductor" => AnyBsdf::GgxConductor(rough_conductor(context, element, &mut properties)?),
-        _ => AnyBsdf::RoughPlastic(rough_plastic(context, element, &mut properties)?),
+        "phong" => phong(context, element, &mut properties)?,
+        "roughconductor" => rough_conductor(context, element, &mut properties)?,
+        _ => rough_plastic(context, element, &mut properties)?,
     };
     properties.finish(context)?;
-    Ok(bsdf)
+    Ok(side)
 }
 
 /// As `phong` of Mitsuba 0.6: both reflectances are scaled down when they exceed 1 together.
@@ -70,57 +83,67 @@ fn phong(
     context: &mut Context<'_>,
     element: &Element,
     properties: &mut Properties<'_>,
-) -> Result<Phong, LoadError> {
-    let mut diffuse = properties.reflectance("diffuse_reflectance")?.unwrap_or(Rgb::splat(0.5));
-    let mut specular = properties.reflectance("specular_reflectance")?.unwrap_or(Rgb::splat(0.2));
+) -> Result<Side, LoadError> {
+    let (mut kd, diffuse) = texture::reflectance(context, properties, "diffuse_reflectance", 0.5)?;
+    let (mut ks, specular) = texture::reflectance(context, properties, "specular_reflectance", 0.2)?;
     let exponent = properties.float_or("exponent", 30.0)? as f32;
-    let most = (diffuse + specular).max_component();
-    if most > 1.0 && diffuse.is_valid() && specular.is_valid() {
+    let largest = |own: Rgb, texture: &Option<TextureDescription>| match texture {
+        Some(texture) => texture.texture().map(|t| t.largest()).map_err(|e| element.error(e)),
+        None => Ok(own),
+    };
+    let most = (largest(kd, &diffuse)? + largest(ks, &specular)?).max_component();
+    let mut scale = 1.0;
+    if most > 1.0 && kd.is_valid() && ks.is_valid() {
         // Mitsuba 0.6 keeps 1 % of distance to losing nothing.
-        let scale = 0.99 / most;
-        (diffuse, specular) = (diffuse * scale, specular * scale);
+        scale = 0.99 / most;
+        (kd, ks) = (kd * scale, ks * scale);
         context.warn(element, "reflects more than arrives; both reflectances are scaled down to 0.99 in sum");
     }
-    Phong::new(diffuse, specular, exponent).map_err(|e| element.error(e))
+    let bsdf = Phong::new(kd, ks, exponent).map_err(|e| element.error(e))?;
+    Ok((AnyBsdf::Phong(bsdf), MaterialTextures { diffuse, specular, roughness: None, scale }))
 }
 
 fn rough_conductor(
     context: &mut Context<'_>,
     element: &Element,
     properties: &mut Properties<'_>,
-) -> Result<GgxConductor, LoadError> {
+) -> Result<Side, LoadError> {
     if let Some((child, material)) = properties.text("material")?
         && material != "none"
     {
         return Err(child.error(Problem::unknown("material", material, &["none"])));
     }
     only_ggx(element, properties)?;
-    let reflectance = properties.reflectance("specular_reflectance")?.unwrap_or(Rgb::WHITE);
-    let alpha = roughnesses(context, element, properties)?;
-    let bsdf = GgxConductor::anisotropic(reflectance, alpha).map_err(|e| element.error(e))?;
+    let (reflectance, specular) = texture::reflectance(context, properties, "specular_reflectance", 1.0)?;
+    let (alpha, roughness) = roughnesses(context, element, properties)?;
+    let mut bsdf = GgxConductor::anisotropic(reflectance, alpha).map_err(|e| element.error(e))?;
     let (eta, k) = (properties.reflectance("eta")?, properties.reflectance("k")?);
-    if eta.is_none() && k.is_none() {
-        return Ok(bsdf);
+    if eta.is_some() || k.is_some() {
+        // What is not given is that of a mirror.
+        let (eta, k) = (eta.unwrap_or(Rgb::BLACK), k.unwrap_or(Rgb::WHITE));
+        bsdf = bsdf.with_index(eta, k).map_err(|e| element.error(e))?;
     }
-    // What is not given is that of a mirror.
-    bsdf.with_index(eta.unwrap_or(Rgb::BLACK), k.unwrap_or(Rgb::WHITE)).map_err(|e| element.error(e))
+    let textures = MaterialTextures { specular, roughness, ..MaterialTextures::default() };
+    Ok((AnyBsdf::GgxConductor(bsdf), textures))
 }
 
 fn rough_plastic(
     context: &mut Context<'_>,
     element: &Element,
     properties: &mut Properties<'_>,
-) -> Result<RoughPlastic, LoadError> {
+) -> Result<Side, LoadError> {
     only_ggx(element, properties)?;
-    let alpha = roughness(context, element, properties.float_or("alpha", 0.1)?);
+    let alpha = supported(context, element, properties.float_or("alpha", 0.1)?);
     let eta = ior::relative(element, properties)?;
-    let diffuse = properties.reflectance("diffuse_reflectance")?.unwrap_or(Rgb::splat(0.5));
-    let specular = properties.reflectance("specular_reflectance")?.unwrap_or(Rgb::WHITE);
+    let (kd, diffuse) = texture::reflectance(context, properties, "diffuse_reflectance", 0.5)?;
+    let (ks, specular) = texture::reflectance(context, properties, "specular_reflectance", 1.0)?;
     let nonlinear = properties.flag("nonlinear")?;
-    RoughPlastic::new(alpha, eta)
-        .and_then(|bsdf| bsdf.with_diffuse(diffuse)?.with_specular(specular))
+    let bsdf = RoughPlastic::new(alpha, eta)
+        .and_then(|bsdf| bsdf.with_diffuse(kd)?.with_specular(ks))
         .map(|bsdf| bsdf.with_nonlinear(nonlinear))
-        .map_err(|e| element.error(e))
+        .map_err(|e| element.error(e))?;
+    let textures = MaterialTextures { diffuse, specular, ..MaterialTextures::default() };
+    Ok((AnyBsdf::RoughPlastic(bsdf), textures))
 }
 
 /// Refuses what Mitsuba takes when nothing is said.
@@ -133,13 +156,13 @@ fn only_ggx(element: &Element, properties: &mut Properties<'_>) -> Result<(), Lo
     Err(child.error(Problem::unknown("distribution", distribution, &["ggx"])))
 }
 
-/// Roughness along the surface's tangent and across it.
+/// Roughness along the surface's tangent and across it, and a texture for both.
 fn roughnesses(
     context: &mut Context<'_>,
     element: &Element,
     properties: &mut Properties<'_>,
-) -> Result<[f32; 2], LoadError> {
-    let both = properties.float("alpha")?;
+) -> Result<([f32; 2], Option<TextureDescription>), LoadError> {
+    let (both, texture) = texture::roughness(context, properties, "alpha")?;
     let [along, across] = match (both, properties.float("alpha_u")?, properties.float("alpha_v")?) {
         (both, None, None) => [both.unwrap_or(0.1); 2],
         (None, Some(along), Some(across)) => [along, across],
@@ -152,11 +175,11 @@ fn roughnesses(
             return Err(element.error(Problem::Missing { what: format!("the property \"{missing}\"") }));
         }
     };
-    Ok([roughness(context, element, along), roughness(context, element, across)])
+    Ok(([supported(context, element, along), supported(context, element, across)], texture))
 }
 
 /// A roughness as far as it is supported.
-fn roughness(context: &mut Context<'_>, element: &Element, alpha: f64) -> f32 {
+fn supported(context: &mut Context<'_>, element: &Element, alpha: f64) -> f32 {
     if (0.0..MIN_ALPHA).contains(&alpha) {
         context.warn(element, "alpha is below 0.0001, the smoothest that is supported; 0.0001 is used");
         return MIN_ALPHA as f32;

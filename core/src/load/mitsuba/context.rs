@@ -2,12 +2,14 @@
 
 use super::document::{Document, find};
 use super::element::Element;
+use crate::build::TexelBuffer;
 use crate::load::{LoadError, Problem, Warning};
 use std::borrow::ToOwned;
 use std::collections::BTreeMap;
 use std::format;
 use std::path::PathBuf;
 use std::string::String;
+use std::sync::Arc;
 use std::vec::Vec;
 
 /// What is known while a document becomes a scene.
@@ -17,6 +19,8 @@ pub(super) struct Context<'d> {
     lenient: bool,
     warnings: Vec<Warning>,
     ids: BTreeMap<&'d str, &'d Element>,
+    /// Pictures of textures, by file and encoding: each is read once.
+    pub(super) pictures: BTreeMap<(PathBuf, bool), (u32, u32, Arc<TexelBuffer>)>,
 }
 
 impl<'d> Context<'d> {
@@ -26,7 +30,7 @@ impl<'d> Context<'d> {
         for child in &document.root.children {
             collect(child, &mut ids)?;
         }
-        Ok(Self { document, lenient, warnings: Vec::new(), ids })
+        Ok(Self { document, lenient, warnings: Vec::new(), ids, pictures: BTreeMap::new() })
     }
 
     /// Notes that something is not done as written.

@@ -1,33 +1,27 @@
 //! The cube `[−1, 1]³`.
 
 use crate::build::Mesh;
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use std::vec::Vec;
 
-/// Two triangles for each side, counter-clockwise seen from outside. Corner `i` has its coordinates
-/// in the bits of `i`: x lowest.
-const TRIANGLES: [[u32; 3]; 12] = [
-    [0, 2, 3],
-    [0, 3, 1],
-    [4, 5, 7],
-    [4, 7, 6],
-    [0, 1, 5],
-    [0, 5, 4],
-    [2, 6, 7],
-    [2, 7, 3],
-    [0, 4, 6],
-    [0, 6, 2],
-    [1, 3, 7],
-    [1, 7, 5],
-];
+/// The corners of each side, counter-clockwise seen from outside, those of the texture coordinates
+/// (0, 1), (1, 1), (1, 0) and (0, 0) in this order; as in Mitsuba 3. A corner has its coordinates in
+/// its bits: x lowest.
+const SIDES: [[u32; 4]; 6] =
+    [[1, 5, 4, 0], [3, 2, 6, 7], [1, 3, 7, 5], [5, 7, 6, 4], [4, 6, 2, 0], [3, 1, 0, 2]];
 
-/// A cube with flat sides.
+/// A cube with flat sides: two triangles for each.
 pub(super) fn mesh() -> Mesh {
     let sign = |bit: u32| if bit == 0 { -1.0 } else { 1.0 };
+    let uvs = [Vec2::Y, Vec2::ONE, Vec2::X, Vec2::ZERO];
+    let first = |side: usize| 4 * side as u32;
     Mesh {
-        positions: (0..8).map(|i: u32| Vec3::new(sign(i & 1), sign(i & 2), sign(i & 4))).collect(),
+        positions: SIDES.iter().flatten().map(|i| Vec3::new(sign(i & 1), sign(i & 2), sign(i & 4))).collect(),
         normals: Vec::new(),
-        triangles: TRIANGLES.to_vec(),
+        uvs: uvs.repeat(SIDES.len()),
+        triangles: (0..SIDES.len())
+            .flat_map(|s| [[0, 1, 2], [3, 0, 2]].map(|t| t.map(|i| first(s) + i)))
+            .collect(),
     }
 }
 

@@ -3,6 +3,7 @@
 use super::context::Context;
 use super::element::Element;
 use super::properties::Properties;
+use super::texture;
 use crate::build::Emission;
 use crate::light::{AnyLight, Constant, Directional, LightError, Point, Spot};
 use crate::load::{LoadError, Problem};
@@ -15,11 +16,11 @@ const FREE: [&str; 4] = ["point", "spot", "directional", "constant"];
 pub(super) fn surface(context: &mut Context<'_>, element: &Element) -> Result<Emission, LoadError> {
     element.plugin("emitter of a shape", &["area"])?;
     let mut properties = Properties::new(element)?;
-    let radiance = properties.emission("radiance")?;
+    let (radiance, texture) = texture::radiance(context, &mut properties, "radiance")?;
     let two_sided = properties.flag("two_sided")?;
     properties.finish(context)?;
     if radiance.is_valid() {
-        Ok(Emission { radiance, two_sided })
+        Ok(Emission { radiance, texture, two_sided })
     } else {
         Err(element.error(LightError::NegativeEmission { emission: radiance }))
     }

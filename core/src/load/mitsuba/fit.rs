@@ -6,7 +6,8 @@
 use crate::build::{Geometry, Mesh};
 use crate::load::Problem;
 use crate::shape::{AnyShape, Cylinder, Disk, Rectangle, Sphere};
-use glam::{DMat3, DMat4, DVec3, Vec3};
+use crate::texture::ObjectSpace;
+use glam::{DMat3, DMat4, DVec3, Vec2, Vec3};
 use std::vec::Vec;
 
 /// Cosine up to which two axes are at right angles: below it the shape is off by less than 1e-5 of
@@ -27,6 +28,26 @@ fn linear(m: &DMat4) -> Result<DMat3, Problem> {
     }
 }
 
+/// The space of a unit shape and its transform.
+pub(super) fn object_space(m: &DMat4) -> ObjectSpace {
+    let to_object = DMat3::from_mat4(*m).inverse().as_mat3();
+    ObjectSpace { origin: m.w_axis.truncate().as_vec3(), to_object }
+}
+
+/// From the cylinder of radius 1 along z from 0 to 1 to the one given by its ends and radius, turned
+/// as in Mitsuba 3.
+pub(super) fn unit_cylinder(ends: [DVec3; 2], radius: f64) -> DMat4 {
+    let along = ends[1] - ends[0];
+    let axis = along.try_normalize().unwrap_or(DVec3::Z);
+    let (s, t) = axis.any_orthonormal_pair();
+    DMat4::from_cols(
+        (s * radius).extend(0.0),
+        (t * radius).extend(0.0),
+        along.extend(0.0),
+        ends[0].extend(1.0),
+    )
+}
+
 fn cosine(a: DVec3, b: DVec3) -> f64 {
     a.dot(b) / (a.length() * b.length())
 }
@@ -45,7 +66,11 @@ pub(super) fn rectangle(m: &DMat4, flip: bool) -> Result<Geometry, Problem> {
     for [a, b, c] in [[0, 1, 2], [0, 2, 3]] {
         crate::shape::Triangle::new(positions[a], positions[b], positions[c])?;
     }
-    Ok(Geometry::Mesh(Mesh { positions, normals: Vec::new(), triangles: [[0, 1, 2], [0, 2, 3]].to_vec() }))
+    // The second axis is turned around with the normal; texture coordinates stay where they are.
+    let (low, high) = if v.dot(l.y_axis) < 0.0 { (1.0, 0.0) } else { (0.0, 1.0) };
+    let uvs = [[0.0, low], [1.0, low], [1.0, high], [0.0, high]].map(Vec2::from_array).to_vec();
+    let triangles = [[0, 1, 2], [0, 2, 3]].to_vec();
+    Ok(Geometry::Mesh(Mesh { positions, normals: Vec::new(), uvs, triangles }))
 }
 
 /// The unit disk in the plane `z = 0`; an ellipse when it is scaled or sheared.

@@ -38,18 +38,18 @@ impl Materials {
             let problem = crate::load::Problem::NotSupported { what, instead: "refer to a <bsdf>" };
             return Err(element.error(problem));
         }
-        let bsdf = bsdf::read(context, element)?;
+        let material = bsdf::read(context, element)?;
         let name = id.unwrap_or_default().to_owned();
         if let Some(id) = id {
             self.by_id.insert(id.to_owned(), self.list.len());
         }
-        Ok(self.add(Material { name, bsdf }))
+        Ok(self.add(Material { name, ..material }))
     }
 
     /// The index of what a surface without a `<bsdf>` has.
     pub(super) fn default(&mut self, element: &Element, emits: bool) -> Result<usize, LoadError> {
         let bsdf = bsdf::default(emits).map_err(|e| element.error(e))?;
-        Ok(self.add(Material { name: String::new(), bsdf }))
+        Ok(self.add(Material { name: String::new(), bsdf, textures: <[_; 2]>::default() }))
     }
 
     fn add(&mut self, material: Material) -> usize {

@@ -14,6 +14,7 @@ mod properties;
 mod scene;
 mod sensor;
 mod shape;
+mod texture;
 mod transform;
 mod value;
 

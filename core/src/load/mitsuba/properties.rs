@@ -88,7 +88,12 @@ impl<'e> Properties<'e> {
 
     /// True or false; false when it is not given.
     pub(super) fn flag(&mut self, name: &'static str) -> Result<bool, LoadError> {
-        let Some(child) = self.take(name, &["boolean"], "a <boolean>")? else { return Ok(false) };
+        self.flag_or(name, false)
+    }
+
+    /// True or false, or what holds when it is not given.
+    pub(super) fn flag_or(&mut self, name: &'static str, default: bool) -> Result<bool, LoadError> {
+        let Some(child) = self.take(name, &["boolean"], "a <boolean>")? else { return Ok(default) };
         match child.required("value")? {
             "true" => Ok(true),
             "false" => Ok(false),
@@ -127,6 +132,24 @@ impl<'e> Properties<'e> {
             .transpose()
     }
 
+    /// The texture, or the reference to one, that is given for a property.
+    pub(super) fn texture(&mut self, name: &'static str) -> Result<Option<&'e Element>, LoadError> {
+        let named = |c: &Element| c.attribute("name") == Some(name);
+        let is_it = |c: &Element| matches!(c.tag.as_str(), "texture" | "ref") && named(c);
+        let Some(i) = self.element.children.iter().position(is_it) else { return Ok(None) };
+        self.asked.push(name);
+        self.taken[i] = true;
+        let child = &self.element.children[i];
+        let is_property = |c: &&Element| TAGS.contains(&c.tag.as_str()) && named(c);
+        match self.element.children.iter().find(is_property) {
+            Some(first) => {
+                let what = format!("property \"{name}\" is given twice");
+                Err(child.error(Problem::Conflict { what, first: first.at.clone() }))
+            }
+            None => Ok(Some(child)),
+        }
+    }
+
     /// A reflectance.
     pub(super) fn reflectance(&mut self, name: &'static str) -> Result<Option<Rgb>, LoadError> {
         self.colour(name, Rgb::WHITE)
@@ -139,15 +162,6 @@ impl<'e> Properties<'e> {
 
     /// A colour; a single-valued spectrum of 1 is `spectrum`.
     fn colour(&mut self, name: &'static str, spectrum: Rgb) -> Result<Option<Rgb>, LoadError> {
-        if let Some(texture) = self
-            .element
-            .children
-            .iter()
-            .find(|c| matches!(c.tag.as_str(), "texture" | "ref") && c.attribute("name") == Some(name))
-        {
-            let instead = "give the property one <rgb> for the whole surface";
-            return Err(texture.error(Problem::NotSupported { what: "a texture".to_owned(), instead }));
-        }
         let tags = ["rgb", "spectrum", "float"];
         let Some(child) = self.take(name, &tags, "an <rgb>, <spectrum> or <float>")? else {
             return Ok(None);
@@ -205,7 +219,7 @@ impl<'e> Properties<'e> {
                 let name = child.attribute("name").unwrap_or_default();
                 child.error(Problem::unknown("property", name, &self.asked))
             } else if child.tag == "texture" {
-                let instead = "give the property one <rgb> for the whole surface";
+                let instead = "give the property one value for the whole surface";
                 child.error(Problem::NotSupported { what: "a texture".to_owned(), instead })
             } else {
                 child.error(Problem::unknown("element", &child.tag, &self.asked))

@@ -5,9 +5,11 @@ use super::element::Element;
 use super::material::Materials;
 use super::properties::Properties;
 use super::sensor::Sensor;
-use super::{emitter, integrator, sensor, shape};
+use super::shape::{self, Form};
+use super::{emitter, integrator, sensor};
 use crate::build::{
-    CameraDescription, Description, FovAxis, Geometry, IntegratorDescription, Object, ProjectionDescription,
+    CameraDescription, Description, Emission, FovAxis, Geometry, IntegratorDescription, Object,
+    ProjectionDescription,
 };
 use crate::camera::View;
 use crate::film::{Film, Filter};
@@ -22,8 +24,8 @@ use std::path::Path;
 use std::vec::Vec;
 
 /// What stands in a scene.
-const TAGS: [&str; 9] =
-    ["integrator", "sensor", "shape", "emitter", "bsdf", "default", "include", "alias", "path"];
+const TAGS: [&str; 10] =
+    ["integrator", "sensor", "shape", "emitter", "bsdf", "texture", "default", "include", "alias", "path"];
 
 /// The parts gathered so far.
 #[derive(Debug, Default)]
@@ -62,6 +64,8 @@ impl<'e> Parts<'e> {
             "sensor" => self.sensor(context, element),
             "shape" => self.shape(context, element),
             "emitter" => self.light(context, element),
+            // Read where it is referred to.
+            "texture" => Ok(()),
             tag => Err(element.error(Problem::unknown("element", tag, &TAGS))),
         }
     }
@@ -99,7 +103,7 @@ impl<'e> Parts<'e> {
 
     fn shape(&mut self, context: &mut Context<'_>, element: &'e Element) -> Result<(), LoadError> {
         let mut properties = Properties::new(element)?;
-        let geometry = shape::read(context, element, &mut properties)?;
+        let Form { mut geometry, mut object_space } = shape::read(context, element, &mut properties)?;
         let material = match properties.single(&["bsdf", "ref"])? {
             Some(bsdf) => {
                 let index = self.materials.index(context, bsdf);
@@ -116,7 +120,13 @@ impl<'e> Parts<'e> {
         };
         properties.finish(context)?;
         let material = material.map_or_else(|| self.materials.default(element, emission.is_some()), Ok)?;
-        self.objects.push(Object { name: element.title().to_owned(), geometry, material, emission });
+        let has_texture = |e: &Emission| e.texture.is_some();
+        if !self.materials.list[material].needs_uvs() && !emission.as_ref().is_some_and(has_texture) {
+            geometry.forget_uvs();
+            object_space = None;
+        }
+        let name = element.title().to_owned();
+        self.objects.push(Object { name, geometry, material, emission, object_space });
         Ok(())
     }
 

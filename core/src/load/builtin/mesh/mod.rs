@@ -52,6 +52,7 @@ impl Pose {
     /// Puts a mesh there.
     pub(super) fn apply(&self, mesh: &Mesh) -> Mesh {
         Mesh {
+            uvs: mesh.uvs.clone(),
             positions: mesh.positions.iter().map(|p| self.point(*p)).collect(),
             normals: mesh.normals.iter().map(|n| unit_or_up(self.rotation * *n)).collect(),
             triangles: mesh.triangles.clone(),

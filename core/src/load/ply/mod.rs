@@ -1,17 +1,16 @@
 //! PLY files, text or binary, read element by element.
 
+mod element;
+
 use super::MeshError;
 use crate::build::Mesh;
-use glam::Vec3;
+use element::{Face, Ignored, Vertex};
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
-use ply_rs_bw::ply::{
-    ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult, PropertyType,
-};
+use ply_rs_bw::ply::{ElementDef, Encoding, Header, PropertyAccess, PropertyType};
 use std::fs::File;
 use std::io::{self, BufRead, BufReader};
 use std::path::Path;
 use std::string::{String, ToString};
-use std::vec::Vec;
 
 /// Reads a mesh. Polygons become fans of triangles.
 ///
@@ -140,16 +139,22 @@ fn read_vertices<R: BufRead>(
     definition: &ElementDef,
     mesh: &mut Mesh,
 ) -> Result<(), MeshError> {
-    let has_normals = ["nx", "ny", "nz"].iter().all(|n| definition.properties.contains_key(*n));
+    let has = |names: &[&str]| names.iter().all(|n| definition.properties.contains_key(*n));
+    let has_normals = has(&["nx", "ny", "nz"]);
+    let has_uvs = has(&["u", "v"]) || has(&["s", "t"]);
+    mesh.uvs.reserve_exact(if has_uvs { definition.count } else { 0 });
     mesh.positions.reserve_exact(definition.count);
     mesh.normals.reserve_exact(if has_normals { definition.count } else { 0 });
     each::<Vertex, _>(reader, header, definition, |vertex, v| {
-        if !v.position.is_finite() || !v.normal.is_finite() {
+        if !v.position.is_finite() || !v.normal.is_finite() || !v.uv.is_finite() {
             return Err(MeshError::NotFinite { vertex });
         }
         mesh.positions.push(v.position);
         if has_normals {
             mesh.normals.push(v.normal);
+        }
+        if has_uvs {
+            mesh.uvs.push(v.uv);
         }
         Ok(())
     })
@@ -178,108 +183,12 @@ fn read_faces<R: BufRead>(
     })
 }
 
-/// The properties of a vertex that are used.
-#[derive(Debug, Default)]
-struct Vertex {
-    position: Vec3,
-    normal: Vec3,
-}
-
-impl Vertex {
-    fn set(&mut self, name: &str, value: f32) -> PropertyAccessResult {
-        let place = match name {
-            "x" => &mut self.position.x,
-            "y" => &mut self.position.y,
-            "z" => &mut self.position.z,
-            "nx" => &mut self.normal.x,
-            "ny" => &mut self.normal.y,
-            "nz" => &mut self.normal.z,
-            _ => return PropertyAccessResult::Ignored,
-        };
-        *place = value;
-        PropertyAccessResult::Set
-    }
-}
-
-impl PropertyAccess for Vertex {
-    fn new() -> Self {
-        Self::default()
-    }
-
-    fn set_property(&mut self, name: &str, property: Property) -> PropertyAccessResult {
-        match property.to_f32_lossy() {
-            Some(value) => self.set(name, value),
-            None => PropertyAccessResult::Ignored,
-        }
-    }
-
-    fn set_float(&mut self, name: &str, value: f32) -> PropertyAccessResult {
-        self.set(name, value)
-    }
-}
-
-/// The list of a face's corners, as it is stored.
-#[derive(Debug)]
-struct Face {
-    corners: Property,
-}
-
-impl Face {
-    fn len(&self) -> usize {
-        match &self.corners {
-            Property::ListChar(v) => v.len(),
-            Property::ListUChar(v) => v.len(),
-            Property::ListShort(v) => v.len(),
-            Property::ListUShort(v) => v.len(),
-            Property::ListInt(v) => v.len(),
-            Property::ListUInt(v) => v.len(),
-            _ => 0,
-        }
-    }
-
-    /// A corner's index; −1 when there is none.
-    fn corner(&self, k: usize) -> i64 {
-        let index = match &self.corners {
-            Property::ListChar(v) => v.get(k).map(|i| i64::from(*i)),
-            Property::ListUChar(v) => v.get(k).map(|i| i64::from(*i)),
-            Property::ListShort(v) => v.get(k).map(|i| i64::from(*i)),
-            Property::ListUShort(v) => v.get(k).map(|i| i64::from(*i)),
-            Property::ListInt(v) => v.get(k).map(|i| i64::from(*i)),
-            Property::ListUInt(v) => v.get(k).map(|i| i64::from(*i)),
-            _ => None,
-        };
-        index.unwrap_or(-1)
-    }
-}
-
-impl PropertyAccess for Face {
-    fn new() -> Self {
-        Self { corners: Property::ListInt(Vec::new()) }
-    }
-
-    fn set_property(&mut self, name: &str, property: Property) -> PropertyAccessResult {
-        if !matches!(name, "vertex_indices" | "vertex_index") {
-            return PropertyAccessResult::Ignored;
-        }
-        self.corners = property;
-        PropertyAccessResult::Set
-    }
-}
-
-/// An element that is read only to get past it.
-#[derive(Debug)]
-struct Ignored;
-
-impl PropertyAccess for Ignored {
-    fn new() -> Self {
-        Self
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glam::{Vec2, Vec3};
     use std::format;
+    use std::vec::Vec;
 
     const HEADER: &str = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
                           element face 1\nproperty list uchar int vertex_indices\nend_header\n";
@@ -324,6 +233,18 @@ mod tests {
                 assert_eq!(mesh.positions[3], Vec3::X * 3.0);
             }
         }
+    }
+
+    #[test]
+    fn texture_coordinates_have_two_pairs_of_names() {
+        for names in [["u", "v"], ["s", "t"]] {
+            let uv = format!("property float z\nproperty float {}\nproperty float {}\n", names[0], names[1]);
+            let text =
+                format!("ply\nformat ascii 1.0\n{HEADER}0 0 0 0 0\n1 0 0 1 0\n0 1 0 0.5 0.25\n3 0 1 2\n");
+            let mesh = parse_text(&text.replace("property float z\n", &uv)).unwrap();
+            assert_eq!(mesh.uvs, [Vec2::ZERO, Vec2::X, Vec2::new(0.5, 0.25)]);
+        }
+        assert!(ascii("0 0 0\n1 0 0\n0 1e0 0\n3 0 1 2\n").unwrap().uvs.is_empty());
     }
 
     #[test]
