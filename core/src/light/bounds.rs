@@ -1,7 +1,7 @@
 //! Where a light is and whither it shines, for choosing among many.
 
-use super::{AreaLight, SurfaceRadiance};
 use super::area::{SampledShape, Sides};
+use super::{AreaLight, SurfaceRadiance};
 use crate::geom::{Aabb, unit};
 use crate::num::{self, FRAC_PI_2, PI, larger};
 use glam::Vec3;

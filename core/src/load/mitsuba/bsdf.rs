@@ -175,7 +175,10 @@ fn roughnesses(
             return Err(element.error(Problem::Missing { what: format!("the property \"{missing}\"") }));
         }
     };
-    Ok(([supported(context, element, along), supported(context, element, across)], texture))
+    let first = supported(context, element, along);
+    // The same roughness is warned of once.
+    let second = if across == along { first } else { supported(context, element, across) };
+    Ok(([first, second], texture))
 }
 
 /// A roughness as far as it is supported.
