@@ -1,11 +1,11 @@
 //! From the choices on the command line, `auto` among them, to an estimator.
 
-use crate::args::{Choices, Choose, Heuristic, Lights, Sequence, Technique};
+use crate::args::{Choices, Choose, Environment, Heuristic, Lights, Sequence, Technique};
 use crate::failure::Failure;
-use halflight::build::{BoundScene, Description, SceneBuffers};
+use halflight::build::{BoundScene, Description, IntegratorDescription, SceneBuffers};
 use halflight::choose::LightChoice;
 use halflight::estimate::{AnyEstimator, Direct, Heuristic as Weights, Occlusion, Technique as Combine};
-use halflight::light::{AnyLight, Emitter, SurfaceDensity};
+use halflight::light::{AnyLight, Emitter, EnvironmentDensity, SurfaceDensity};
 use halflight::sequence::{AnySequence, Random, Sobol};
 use std::fmt;
 
@@ -33,6 +33,8 @@ pub(crate) enum Plan {
         bsdf_samples: u32,
         surface: SurfaceDensity,
         choice: Choice,
+        /// Of the environment map that there is.
+        environment: Option<EnvironmentDensity>,
         sobol: bool,
     },
     /// Ambient occlusion.
@@ -50,6 +52,7 @@ pub(crate) fn check(choices: &Choices) -> Result<(), Failure> {
         ("--light-samples", choices.light_samples.is_some(), &[Auto, Light, Bsdf, Mis, Control]),
         ("--bsdf-samples", choices.bsdf_samples.is_some(), &[Auto, Bsdf, Mis, Control]),
         ("--lights", choices.lights != Lights::Auto, &[Auto, Light, Bsdf, Mis, Control]),
+        ("--environment", choices.environment != Environment::Auto, &[Auto, Light, Bsdf, Mis, Control]),
         ("--choose", choices.choose != Choose::Auto, &[Auto, Light, Bsdf, Mis, Control]),
         ("--occlusion-distance", choices.occlusion_distance.is_some(), &[Occlusion]),
     ];
@@ -99,17 +102,22 @@ pub(crate) fn make(
         Lights::Auto => SurfaceDensity::Auto,
     };
     Ok(Plan::Direct {
-        technique: technique(choices, author.light_samples, author.bsdf_samples),
+        technique: technique(choices, description),
         light_samples: choices.light_samples.or(author.light_samples).unwrap_or(1).max(1),
         bsdf_samples: choices.bsdf_samples.or(author.bsdf_samples).unwrap_or(1).max(1),
         surface,
         choice: choice(choices.choose, lights.len()),
+        environment: description.environments.first().map(|e| e.density.resolved()),
         sobol,
     })
 }
 
 /// Which densities are combined. An author who wants no samples of a kind means the other technique.
-fn technique(choices: &Choices, light_samples: Option<u32>, bsdf_samples: Option<u32>) -> Combine {
+///
+/// Under an environment map that may hold a sun `auto` combines both everywhere: in the sun's shadow
+/// most samples by luminance are wasted. On the peers' `env` that is a third of relMSE.
+fn technique(choices: &Choices, description: &Description) -> Combine {
+    let IntegratorDescription { light_samples, bsdf_samples } = description.integrator;
     let weights = match choices.heuristic {
         Some(Heuristic::Balance) => Weights::Balance,
         Some(Heuristic::Power) => Weights::Power,
@@ -122,8 +130,15 @@ fn technique(choices: &Choices, light_samples: Option<u32>, bsdf_samples: Option
         Technique::Control => Combine::Control(weights),
         _ if light_samples == Some(0) && choices.light_samples.is_none() => Combine::Bsdf,
         _ if bsdf_samples == Some(0) && choices.bsdf_samples.is_none() => Combine::Light,
+        _ if hides_a_sun(description) => Combine::Mis(weights),
         _ => Combine::Auto(weights),
     }
+}
+
+/// True with an environment map whose sun, if it has one, is not a light of its own.
+fn hides_a_sun(description: &Description) -> bool {
+    let sun = description.lights.iter().any(|light| matches!(light, AnyLight::DistantDisk(_)));
+    !description.environments.is_empty() && !sun
 }
 
 /// Which light a sample goes to.
@@ -145,7 +160,9 @@ fn check_lights(description: &Description, lights: &[AnyLight<'_>]) -> Result<()
         return Ok(());
     }
     // The builder leaves out surfaces whose emission is 0.
-    let meant = !description.lights.is_empty() || description.objects.iter().any(|o| o.emission.is_some());
+    let meant = !description.lights.is_empty()
+        || !description.environments.is_empty()
+        || description.objects.iter().any(|o| o.emission.is_some());
     let what = if meant { "every light of the scene is dark" } else { "the scene has no lights" };
     Err(Failure::new(format!("{what}: the picture would be black"))
         .tip("give the scene an <emitter> that shines, or use --technique occlusion, which needs no light"))
@@ -183,7 +200,7 @@ impl Plan {
     pub(crate) fn flags(&self) -> Vec<(&'static str, String)> {
         let sequence = |sobol| ("sequence", if sobol { "sobol" } else { "random" }.to_owned());
         match *self {
-            Self::Direct { technique, light_samples, bsdf_samples, surface, choice, sobol } => {
+            Self::Direct { technique, light_samples, bsdf_samples, surface, choice, environment, sobol } => {
                 let (technique, heuristic) = technique_flags(technique);
                 let mut flags = vec![("technique", technique.to_owned())];
                 flags.extend(heuristic.map(|h| ("heuristic", h.to_owned())));
@@ -191,6 +208,7 @@ impl Plan {
                 flags.push(("bsdf-samples", bsdf_samples.to_string()));
                 flags.push(("lights", surface_flag(surface).to_owned()));
                 flags.push(("choose", choice.to_string()));
+                flags.extend(environment.map(|e| ("environment", environment_flag(e).to_owned())));
                 flags.push(sequence(sobol));
                 flags
             }
@@ -230,6 +248,36 @@ const fn surface_flag(surface: SurfaceDensity) -> &'static str {
         SurfaceDensity::Projected => "projected",
         SurfaceDensity::Auto => "auto",
     }
+}
+
+/// As it is typed.
+const fn environment_flag(density: EnvironmentDensity) -> &'static str {
+    match density {
+        EnvironmentDensity::Auto => "auto",
+        EnvironmentDensity::Cosine => "cosine",
+        EnvironmentDensity::Luminance => "luminance",
+        EnvironmentDensity::Compensated => "compensated",
+        EnvironmentDensity::Product => "product",
+    }
+}
+
+/// Chooses how directions toward the scene's environment maps are drawn, before its tables are built.
+///
+/// `auto` leaves to BSDF samples, where there are some, what they find: on the peers' `env` relMSE at
+/// 64 samples is 2.0e-4 so, 2.4e-4 with the product and 3.0e-4 by luminance. Without them the product
+/// is best.
+pub(crate) fn choose_environment(choices: &Choices, description: &mut Description) {
+    let density = match choices.environment {
+        Environment::Auto => match technique(choices, description) {
+            Combine::Mis(_) => EnvironmentDensity::Compensated,
+            _ => EnvironmentDensity::Product,
+        },
+        Environment::Cosine => EnvironmentDensity::Cosine,
+        Environment::Luminance => EnvironmentDensity::Luminance,
+        Environment::Compensated => EnvironmentDensity::Compensated,
+        Environment::Product => EnvironmentDensity::Product,
+    };
+    description.environments.iter_mut().for_each(|map| map.density = density);
 }
 
 impl fmt::Display for Choice {

@@ -22,13 +22,17 @@ pub(crate) struct Found {
 /// # Errors
 /// When there is no such scene, or it cannot be read.
 pub(crate) fn find(scene: Option<&Path>, reading: &SceneArgs) -> Result<Found, Failure> {
-    match scene {
+    let mut found = match scene {
         None => built_in(BUILTIN.first().map_or("", |b| b.name), reading),
         Some(path) => match path.to_str().filter(|name| BUILTIN.iter().any(|b| b.name == *name)) {
             Some(name) => built_in(name, reading),
             None => from_file(path, reading),
         },
+    }?;
+    if let Some(sky) = reading.sky {
+        sky.surround(&mut found.description).map_err(|e| Failure::new(format!("--sky: {e}")))?;
     }
+    Ok(found)
 }
 
 impl Found {

@@ -2,6 +2,7 @@
 //! return what they found instead of panicking, so that their own sensitivity can be tested.
 
 pub mod bsdfs;
+pub mod environments;
 pub mod histogram;
 pub mod lights;
 pub mod matrix;

@@ -7,6 +7,7 @@ mod choosing;
 mod closed_forms;
 mod control_variates;
 mod delta;
+mod environments;
 mod estimators;
 mod extremes;
 mod invariance;
@@ -18,7 +19,7 @@ mod shapes;
 /// Every kind of light has its line in the conformance suite.
 #[test]
 fn no_light_goes_untested() {
-    let suite = concat!(include_str!("lights.rs"), include_str!("delta.rs"));
+    let suite = concat!(include_str!("lights.rs"), include_str!("delta.rs"), include_str!("environments.rs"));
     for name in halflight::light::AnyLight::NAMES {
         let stamped =
             suite.contains(&format!("conformance!({name}_")) || suite.contains(&format!("mod {name}_"));

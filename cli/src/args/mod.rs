@@ -3,12 +3,13 @@
 mod render;
 mod values;
 
-pub(crate) use render::{Choices, Choose, Heuristic, Lights, RenderArgs, Sequence, Technique};
+pub(crate) use render::{Choices, Choose, Environment, Heuristic, Lights, RenderArgs, Sequence, Technique};
 
 use clap::builder::Styles;
 use clap::builder::styling::{AnsiColor, Style};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Args, Parser, Subcommand};
+use halflight::build::Sky;
 use halflight::load::builtin::BUILTIN;
 use std::path::PathBuf;
 
@@ -52,6 +53,11 @@ pub(crate) struct SceneArgs {
     /// Set a parameter of the scene file, as in -D spp=16 (repeatable)
     #[arg(short = 'D', value_name = "NAME=VALUE", value_parser = values::definition)]
     pub(crate) define: Vec<(String, String)>,
+
+    /// Put a clear sky and its sun around the scene, in place of its own environment: the sun's
+    /// elevation and azimuth (degrees; 0 is toward -z, 90 toward +x) and the air's turbidity (2 to 10)
+    #[arg(long, value_name = "E,A[,T]", value_parser = values::sky, allow_hyphen_values = true)]
+    pub(crate) sky: Option<Sky>,
 
     /// Leave out what is not supported, with a warning, instead of refusing the scene
     #[arg(long)]

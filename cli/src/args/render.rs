@@ -94,6 +94,10 @@ pub(crate) struct Choices {
     #[arg(long, value_enum, value_name = "HOW", default_value_t)]
     pub(crate) choose: Choose,
 
+    /// How directions toward an environment map are drawn
+    #[arg(long, value_enum, value_name = "HOW", default_value_t)]
+    pub(crate) environment: Environment,
+
     /// Where the uniform numbers come from
     #[arg(long, value_enum, value_name = "HOW", default_value_t)]
     pub(crate) sequence: Sequence,
@@ -165,6 +169,22 @@ pub(crate) enum Choose {
     Power,
     /// One, by what it is expected to send to the point: a tree of the lights
     Tree,
+}
+
+/// How directions toward an environment map are drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub(crate) enum Environment {
+    /// What the scene requires
+    #[default]
+    Auto,
+    /// By the cosine at the surface alone
+    Cosine,
+    /// By luminance
+    Luminance,
+    /// By luminance above its mean: for --technique mis, which finds the rest
+    Compensated,
+    /// By luminance times the cosine at the surface
+    Product,
 }
 
 /// Where the uniform numbers come from.

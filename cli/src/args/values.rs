@@ -1,5 +1,6 @@
 //! Values that need more than a number or a word.
 
+use halflight::build::Sky;
 use halflight::film::PixelRect;
 
 /// `x0,y0,x1,y1`.
@@ -10,6 +11,17 @@ pub(super) fn crop(text: &str) -> Result<PixelRect, String> {
         Some(&[_, _, _, _]) => Err("the window is empty; X0 must be below X1, and Y0 below Y1".to_owned()),
         _ => Err("four whole numbers are needed, as in 100,80,300,200".to_owned()),
     }
+}
+
+/// `elevation,azimuth` or `elevation,azimuth,turbidity`: a sky that can be looked at as it is.
+pub(super) fn sky(text: &str) -> Result<Sky, String> {
+    let numbers: Option<Vec<f64>> = text.split(',').map(|n| n.trim().parse().ok()).collect();
+    let sky = match numbers.as_deref() {
+        Some(&[elevation, azimuth]) => Sky::new(elevation, azimuth, Sky::CLEAR),
+        Some(&[elevation, azimuth, turbidity]) => Sky::new(elevation, azimuth, turbidity),
+        _ => return Err("two or three numbers are needed, as in 40,120 or 40,120,3".to_owned()),
+    };
+    sky.map(|sky| sky.scaled(Sky::EXPOSED)).map_err(|e| e.to_string())
 }
 
 /// A number that is neither infinite nor NaN.

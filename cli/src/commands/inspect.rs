@@ -7,7 +7,9 @@ use crate::plan::{self, Plan};
 use crate::progress::Step;
 use crate::{scene, terminal};
 use halflight::bsdf::AnyBsdf;
-use halflight::build::{CameraDescription, Description, ProjectionDescription, SceneBuffers, SceneStats};
+use halflight::build::{
+    CameraDescription, Description, EnvironmentDescription, ProjectionDescription, SceneBuffers, SceneStats,
+};
 use halflight::bvh::STACK;
 use halflight::estimate::PixelStats;
 use halflight::film::Filter;
@@ -46,7 +48,8 @@ pub(crate) fn run(args: &InspectArgs) -> Result<Exit, Failure> {
     let name = scene::shown(args.scene.as_deref());
     let (found, buffers) = {
         let _step = Step::begin(format!("reading {name}"), args.json);
-        let found = scene::find(args.scene.as_deref(), &args.reading)?;
+        let mut found = scene::find(args.scene.as_deref(), &args.reading)?;
+        plan::choose_environment(&Choices::default(), &mut found.description);
         let buffers =
             SceneBuffers::new(&found.description).map_err(|e| Failure::new(format!("{name}: {e}")))?;
         (found, buffers)
@@ -140,12 +143,20 @@ fn table(inspected: &Inspected<'_>) -> String {
         ("surfaces", listed(&contents.shapes)),
         ("materials", listed_materials(&contents.materials)),
         ("lights", listed(&contents.lights)),
+        ("map", environment(description)),
         ("tree", format!("{}, stack {} of {STACK}", counted(stats.nodes as u64, "node"), stats.stack)),
         ("memory", format!("{} scene, {} film", bytes(stats.bytes as u64), bytes(film_bytes(description)))),
         ("auto takes", plan.as_ref().map_or_else(|| "nothing: there is no light".to_owned(), choices)),
         ("left out", if left_out.is_empty() { "nothing".to_owned() } else { left_out.join(BREAK) }),
     ];
     rows.iter().map(|(name, value)| format!("{name:10}  {value}")).collect::<Vec<_>>().join("\n")
+}
+
+/// The maps of the environment in words.
+fn environment(description: &Description) -> String {
+    let map = |m: &EnvironmentDescription| format!("{}×{} texels", m.image.width, m.image.height);
+    let maps: Vec<_> = description.environments.iter().map(map).collect();
+    if maps.is_empty() { "no map".to_owned() } else { maps.join(", ") }
 }
 
 /// The description for scripts.
@@ -170,6 +181,8 @@ fn object(inspected: &Inspected<'_>) -> Value {
         "degenerate_triangles": stats.degenerate,
         "materials": counts(&contents.materials),
         "lights": counts(&contents.lights),
+        "environment_maps": description.environments.iter()
+            .map(|m| json!({ "width": m.image.width, "height": m.image.height })).collect::<Vec<_>>(),
         "tree": { "nodes": stats.nodes, "stack": stats.stack, "stack_limit": STACK },
         "bytes": stats.bytes,
         "auto": choices,

@@ -76,7 +76,8 @@ fn prepare(args: &RenderArgs) -> Result<Prepared, Failure> {
     let found = {
         let _step = Step::begin(format!("reading {name}"), args.quiet);
         let start = Instant::now();
-        let found = scene::find(args.scene.as_deref(), &args.reading)?;
+        let mut found = scene::find(args.scene.as_deref(), &args.reading)?;
+        plan::choose_environment(&args.choices, &mut found.description);
         seconds.load = start.elapsed().as_secs_f64();
         found
     };

@@ -25,9 +25,10 @@ impl<'a> BoundScene<'a> {
         for painted in &buffers.painted {
             lights.to_mut()[painted.light] = painted.bound();
         }
-        for environment in &buffers.environments {
+        for (environment, tables) in &buffers.environments {
             let image = &environment.image;
             let map = EnvironmentMap::new(&image.texels, image.width, image.height, environment.to_world)
+                .and_then(|map| tables.table().map_or(Ok(map), |table| map.with_table(table)))
                 .map_err(|source| BuildError::Light { object: "the environment map".to_string(), source })?;
             lights.to_mut().push(AnyLight::EnvironmentMap(map));
         }

@@ -3,7 +3,8 @@
 use super::painted::PaintedBuffer;
 use super::primitives::{Primitive, list};
 use super::{
-    BoundScene, BuildError, Description, EnvironmentDescription, LightTreeBuffers, Material, build_tree,
+    BoundScene, BuildError, Description, EnvironmentDescription, EnvironmentTables, LightTreeBuffers,
+    Material, build_tree,
 };
 use crate::bvh::Node;
 use crate::choose::{LightTree, PowerTable};
@@ -29,7 +30,7 @@ pub struct SceneBuffers {
     pub(super) object_spaces: Vec<ObjectSpace>,
     pub(super) lights: Vec<AnyLight<'static>>,
     pub(super) painted: Vec<PaintedBuffer>,
-    pub(super) environments: Vec<EnvironmentDescription>,
+    pub(super) environments: Vec<(EnvironmentDescription, EnvironmentTables)>,
     pub(super) materials: Vec<AnyMaterial<'static>>,
     /// Those that have textures, each with its index.
     pub(super) textured: Vec<(usize, Material)>,
@@ -92,7 +93,7 @@ impl SceneBuffers {
             object_spaces: Vec::new(),
             lights: Vec::new(),
             painted: Vec::new(),
-            environments: description.environments.clone(),
+            environments: description.environments.iter().map(with_tables).collect(),
             materials: description.materials.iter().map(|m| AnyMaterial::Plain(m.bsdf)).collect(),
             textured: textured(&description.materials),
             power: Vec::new(),
@@ -251,7 +252,17 @@ impl SceneBuffers {
                 + size_of_val(&*self.lights)
                 + size_of_val(&*self.materials)
                 + size_of_val(&*self.power)
+                + self
+                    .environments
+                    .iter()
+                    .map(|(e, t)| size_of_val(&*e.image.texels) + t.bytes())
+                    .sum::<usize>()
                 + self.light_tree.bytes(),
         }
     }
+}
+
+/// An environment with the tables by which it is sampled.
+fn with_tables(environment: &EnvironmentDescription) -> (EnvironmentDescription, EnvironmentTables) {
+    (environment.clone(), EnvironmentTables::new(&environment.image, environment.density))
 }

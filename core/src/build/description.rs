@@ -8,7 +8,7 @@ use crate::Rgb;
 use crate::bsdf::{AnyBsdf, TwoSided};
 use crate::camera::{Camera, CameraError, View};
 use crate::film::Filter;
-use crate::light::AnyLight;
+use crate::light::{AnyLight, EnvironmentDensity};
 use crate::num;
 use crate::shape::AnyShape;
 use crate::texture::ObjectSpace;
@@ -50,8 +50,10 @@ pub struct Description {
 pub struct EnvironmentDescription {
     /// Radiance (W m⁻² sr⁻¹) in longitude and latitude, the zenith on top.
     pub image: Arc<Image>,
-    /// A rotation.
+    /// A rotation, or one with a mirror.
     pub to_world: Mat3,
+    /// How directions toward it are drawn.
+    pub density: EnvironmentDensity,
 }
 
 /// A linear picture.

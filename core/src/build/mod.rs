@@ -3,10 +3,12 @@
 mod bound;
 mod buffers;
 mod description;
+mod environment;
 mod error;
 mod light_tree;
 mod painted;
 mod primitives;
+mod sky;
 mod texture;
 mod tree;
 
@@ -16,7 +18,9 @@ pub use description::{
     CameraDescription, Description, Emission, EnvironmentDescription, FovAxis, Geometry, Image,
     IntegratorDescription, Material, Mesh, Object, ProjectionDescription,
 };
+pub use environment::EnvironmentTables;
 pub use error::BuildError;
 pub use light_tree::LightTreeBuffers;
+pub use sky::{Sky, SkyError};
 pub use texture::{MaterialTextures, TexelBuffer, TextureDescription};
 pub use tree::{Tree, build_tree};

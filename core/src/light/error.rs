@@ -35,6 +35,20 @@ pub enum LightError {
         /// What it says.
         radiance: Rgb,
     },
+    /// A map's transform does more than to turn and to mirror.
+    NotARotation,
+    /// A map's table of densities was made for another map.
+    Table {
+        /// Columns of the map.
+        width: u32,
+        /// Rows of the map.
+        height: u32,
+    },
+    /// The angular radius of a distant disk is not from 0 to 45°.
+    AngularRadius {
+        /// The radius (rad).
+        radius: f32,
+    },
     /// A direction has no length.
     NoDirection,
     /// The angles of a spot are not `0 ≤ beam ≤ cutoff ≤ π`, `cutoff > 0`.
@@ -59,6 +73,17 @@ impl fmt::Display for LightError {
             Self::Texel { x, y, radiance: Rgb { r, g, b } } => write!(
                 f,
                 "the texel in column {x}, row {y} is ({r}, {g}, {b}); channels must be finite and 0 or more"
+            ),
+            Self::NotARotation => {
+                write!(f, "the environment can be turned and mirrored, but not scaled or sheared")
+            }
+            Self::Table { width, height } => {
+                write!(f, "the table of densities was not made for a map of {width}×{height}")
+            }
+            Self::AngularRadius { radius } => write!(
+                f,
+                "the angular radius must be above 0 and at most 45 degrees; it is {}",
+                radius.to_degrees()
             ),
             Self::NoDirection => write!(f, "the direction has no length"),
             Self::Angles { beam, cutoff } => write!(

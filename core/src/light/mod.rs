@@ -11,7 +11,8 @@ mod cylinder;
 mod density;
 mod directional;
 mod disk;
-mod environment;
+mod distant;
+pub(crate) mod environment;
 mod error;
 mod luminance;
 mod painted;
@@ -33,7 +34,8 @@ pub(crate) use bounds::{expected_absolute_cosine, expected_cosine};
 pub use constant::Constant;
 pub use density::SurfaceDensity;
 pub use directional::Directional;
-pub use environment::EnvironmentMap;
+pub use distant::DistantDisk;
+pub use environment::{EnvironmentDensity, EnvironmentMap, EnvironmentTable, Lobe};
 pub use error::LightError;
 pub use luminance::LuminanceGrid;
 pub use painted::{PaintedLight, PaintedRectangle};
@@ -174,6 +176,8 @@ pub enum AnyLight<'a> {
     Directional(Directional),
     /// The same radiance from everywhere.
     Constant(Constant),
+    /// A disk infinitely far away.
+    DistantDisk(DistantDisk),
     /// A picture of the radiance from everywhere.
     EnvironmentMap(EnvironmentMap<'a>),
 }
@@ -192,6 +196,7 @@ macro_rules! each_light {
             AnyLight::Spot($inner) => $body,
             AnyLight::Directional($inner) => $body,
             AnyLight::Constant($inner) => $body,
+            AnyLight::DistantDisk($inner) => $body,
             AnyLight::EnvironmentMap($inner) => $body,
         }
     };
@@ -199,7 +204,7 @@ macro_rules! each_light {
 
 impl AnyLight<'_> {
     /// The kinds of light, by name.
-    pub const NAMES: [&'static str; 11] = [
+    pub const NAMES: [&'static str; 12] = [
         "rectangle",
         "disk",
         "sphere",
@@ -210,6 +215,7 @@ impl AnyLight<'_> {
         "spot",
         "directional",
         "constant",
+        "distant",
         "envmap",
     ];
 
@@ -227,7 +233,8 @@ impl AnyLight<'_> {
             Self::Spot(_) => 7,
             Self::Directional(_) => 8,
             Self::Constant(_) => 9,
-            Self::EnvironmentMap(_) => 10,
+            Self::DistantDisk(_) => 10,
+            Self::EnvironmentMap(_) => 11,
         };
         Self::NAMES[index]
     }

@@ -170,6 +170,13 @@ pub enum Problem {
     },
     /// A texture was refused.
     Texture(TextureError),
+    /// A picture cannot be an environment map.
+    Map {
+        /// Its file.
+        path: PathBuf,
+        /// Why.
+        source: LightError,
+    },
     /// A shape was refused.
     Shape(ShapeError),
     /// A light was refused.
@@ -256,6 +263,7 @@ impl fmt::Display for Problem {
             Self::Mesh { path, source } => write!(f, "{}: {source}", path.display()),
             Self::Image { path, source } => write!(f, "{}: {source}", path.display()),
             Self::Texture(e) => e.fmt(f),
+            Self::Map { path, source } => write!(f, "{}: {source}", path.display()),
             Self::Shape(e) => e.fmt(f),
             Self::Light(e) => e.fmt(f),
             Self::Bsdf(e) => e.fmt(f),

@@ -54,7 +54,7 @@ fn unknown_elements_plugins_properties_and_attributes_are_refused() {
 #[test]
 fn what_mitsuba_has_and_halflight_does_not_says_what_to_write_instead() {
     for (body, part) in [
-        ("<emitter type=\"envmap\"/>", "environment map is not supported; use <emitter type=\"constant\">"),
+        ("<emitter type=\"envmap\"/>", "the property \"filename\" is missing"),
         ("<emitter type=\"area\"/>", "put it into the <shape>"),
         (
             "<bsdf type=\"phong\" id=\"a\"><texture type=\"bitmap\" name=\"exponent\"/></bsdf>",
@@ -240,7 +240,7 @@ fn an_empty_scene_is_refused_unless_a_light_surrounds_it() {
 #[test]
 fn lenient_leaves_out_what_is_unknown_and_says_so() {
     let body = "<shape type=\"sphere\" id=\"ball\"><bsdf type=\"plastic\"/><float name=\"shine\" value=\"1\"/></shape>\n\
-                <shape type=\"teapot\"/>\n<emitter type=\"envmap\"/>";
+                <shape type=\"teapot\"/>\n<emitter type=\"sunsky\"/>";
     assert!(load_body("lenient", body).is_err());
     let path = crate::folder("lenient").join("s.xml");
     let write = |body: &str| std::fs::write(&path, format!("<scene version=\"3.0.0\">\n{body}</scene>"));
@@ -249,7 +249,7 @@ fn lenient_leaves_out_what_is_unknown_and_says_so() {
     let loaded = load(&path, &options).unwrap();
     assert_eq!(loaded.description.objects.len(), 1);
     let places: Vec<_> = loaded.warnings.iter().filter_map(|w| w.at.as_ref()).map(|p| p.line).collect();
-    // Two about the sphere, then the teapot and the map; the missing sensor is about the scene.
+    // Two about the sphere, then the teapot and the sky; the missing sensor is about the scene.
     assert_eq!(places, [2, 2, 3, 4, 1]);
     assert!(loaded.warnings[2].to_string().contains("<shape type=\"teapot\">"), "{}", loaded.warnings[2]);
     // What is wrong, rather than unknown, is still an error.

@@ -6,6 +6,7 @@
 //! the arithmetic around them. Each test says which mistake it guards against.
 
 mod arithmetic;
+mod environment;
 mod rays;
 mod shape_any;
 mod shape_flat;
@@ -20,21 +21,8 @@ use halflight_tests::random::Uniforms;
 use halflight_tests::statistics::Moments;
 
 /// Extremes without a test, and what they wait for.
-const WAITING: [(u8, &str); 13] = [
-    (29, "environment maps: an all-black one must not darken other lights"),
-    (30, "environment maps: a constant one under a density without its mean"),
-    (31, "environment maps of one row, one column or one texel"),
-    (32, "environment maps: the poles"),
-    (33, "environment maps: the seam"),
-    (34, "environment maps with a texel that is not a number"),
-    (35, "environment maps with a negative texel"),
-    (36, "environment maps with a sun"),
-    (37, "a sun disk in the environment"),
-    (38, "environment maps: one interpolation for the density and for the samples"),
-    (39, "environment maps with millions of texels"),
-    (40, "environment maps in another layout than longitude and latitude"),
-    (50, "shadow rays that know the smooth surface behind a coarse mesh with interpolated normals"),
-];
+const WAITING: [(u8, &str); 1] =
+    [(50, "shadow rays that know the smooth surface behind a coarse mesh with interpolated normals")];
 
 /// Each extreme has a test or waits, never both.
 #[test]
@@ -46,6 +34,8 @@ fn each_extreme_has_a_test_or_waits_for_a_feature() {
         include_str!("weights.rs"),
         include_str!("rays.rs"),
         include_str!("arithmetic.rs"),
+        include_str!("environment.rs"),
+        include_str!("../../../core/tests/load/environments.rs"),
         include_str!("../../../cli/tests/cli/output_range.rs"),
     ];
     let lines: Vec<&str> = sources.iter().flat_map(|s| s.lines()).map(str::trim).collect();

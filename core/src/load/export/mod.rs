@@ -15,20 +15,22 @@ mod xml;
 pub use error::ExportError;
 
 use crate::build::{Description, Geometry, Mesh, Object};
+use crate::load::write_exr;
 use crate::shape::AnyShape;
 use file::write_whole;
 use names::{Names, file_name};
 use std::borrow::Cow;
 use std::format;
-use std::io::Write;
+use std::io::{self, Write};
 use std::path::Path;
 use std::string::String;
 use std::vec::Vec;
 use textures::Pictures;
 use xml::Xml;
 
-/// Writes a scene to `path`, and its meshes beside it as `<stem>-<object>.ply`, its
-/// textures as `<stem>-texture.png` or `.exr`, numbered. A file is written
+/// Writes a scene to `path`, and beside it its meshes as `<stem>-<object>.ply`, its textures as
+/// `<stem>-texture.png` or `.exr`, numbered, and a picture of its environment as
+/// `<stem>-environment.exr`. A file is written
 /// under another name and renamed when it is complete.
 ///
 /// # Errors
@@ -56,6 +58,11 @@ pub fn export_mitsuba(description: &Description, path: &Path) -> Result<(), Expo
     }
     for light in &description.lights {
         parts::light(&mut xml, light)?;
+    }
+    for map in &description.environments {
+        let file = files.unique(&format!("{stem}-environment")) + ".exr";
+        write_whole(&path.with_file_name(&file), |out| write_exr(&map.image, out).map_err(io::Error::other))?;
+        parts::environment(&mut xml, map, &file);
     }
     let text = xml.finish();
     write_whole(path, |out| out.write_all(text.as_bytes()))

@@ -6,8 +6,8 @@ use super::{ExportError, digits};
 use crate::Rgb;
 use crate::bsdf::{AnyBsdf, GgxConductor, RoughPlastic, TwoSided};
 use crate::build::{
-    CameraDescription, Description, Emission, FovAxis, Geometry, IntegratorDescription, Material,
-    MaterialTextures, ProjectionDescription, TextureDescription,
+    CameraDescription, Description, Emission, EnvironmentDescription, FovAxis, Geometry,
+    IntegratorDescription, Material, MaterialTextures, ProjectionDescription, TextureDescription,
 };
 use crate::camera::View;
 use crate::film::Filter;
@@ -289,6 +289,15 @@ pub(super) fn emission(
     Ok(())
 }
 
+/// An environment map whose picture is in a file.
+pub(super) fn environment(xml: &mut Xml, map: &EnvironmentDescription, file: &str) {
+    let [x, y, z] = [map.to_world.x_axis, map.to_world.y_axis, map.to_world.z_axis].map(|v| v.as_dvec3());
+    xml.open_plugin("emitter", "envmap", None);
+    xml.property("string", "filename", file);
+    matrix(xml, [x, y, z, DVec3::ZERO]);
+    xml.close("emitter");
+}
+
 /// A light without a surface.
 pub(super) fn light(xml: &mut Xml, light: &AnyLight) -> Result<(), ExportError> {
     match light {
@@ -308,6 +317,12 @@ pub(super) fn light(xml: &mut Xml, light: &AnyLight) -> Result<(), ExportError> 
         AnyLight::Directional(l) => {
             xml.open_plugin("emitter", "directional", None);
             coordinates(xml, "vector", "direction", l.direction().as_dvec3());
+            xml.rgb("irradiance", l.irradiance());
+        }
+        AnyLight::DistantDisk(l) => {
+            xml.remark("a sun of some width, which Mitsuba has only within its own sky: as parallel light");
+            xml.open_plugin("emitter", "directional", None);
+            coordinates(xml, "vector", "direction", -l.axis().as_dvec3());
             xml.rgb("irradiance", l.irradiance());
         }
         AnyLight::Constant(l) => {

@@ -4,13 +4,29 @@ use super::context::Context;
 use super::element::Element;
 use super::properties::Properties;
 use super::texture;
-use crate::build::Emission;
-use crate::light::{AnyLight, Constant, Directional, LightError, Point, Spot};
-use crate::load::{LoadError, Problem};
-use glam::{DMat4, DVec3};
+use crate::build::{Emission, EnvironmentDescription};
+use crate::light::{
+    AnyLight, Constant, Directional, EnvironmentDensity, EnvironmentMap, LightError, Point, Spot,
+};
+use crate::load::{Encoding, LoadError, Problem, read_image};
+use glam::{DMat3, DMat4, DVec3, Mat3};
 use std::borrow::ToOwned;
+use std::format;
+use std::sync::Arc;
 
-const FREE: [&str; 4] = ["point", "spot", "directional", "constant"];
+const FREE: [&str; 5] = ["point", "spot", "directional", "constant", "envmap"];
+
+/// How far a transform of directions may be from a rotation.
+const RIGID: f64 = 1e-5;
+
+/// A light without a surface.
+#[derive(Debug)]
+pub(super) enum Free {
+    /// One that the description holds as it is.
+    Light(AnyLight<'static>),
+    /// A picture.
+    Environment(EnvironmentDescription),
+}
 
 /// What a surface emits.
 pub(super) fn surface(context: &mut Context<'_>, element: &Element) -> Result<Emission, LoadError> {
@@ -27,22 +43,15 @@ pub(super) fn surface(context: &mut Context<'_>, element: &Element) -> Result<Em
 }
 
 /// A light without a surface.
-pub(super) fn free(context: &mut Context<'_>, element: &Element) -> Result<AnyLight<'static>, LoadError> {
-    match element.attribute("type") {
-        Some("area") => {
-            let what = "an area emitter outside of a shape".to_owned();
-            return Err(element.error(Problem::NotSupported { what, instead: "put it into the <shape>" }));
-        }
-        Some("envmap") => {
-            let what = "an environment map".to_owned();
-            let instead = "use <emitter type=\"constant\"> with its mean radiance";
-            return Err(element.error(Problem::NotSupported { what, instead }));
-        }
-        _ => {}
+pub(super) fn free(context: &mut Context<'_>, element: &Element) -> Result<Free, LoadError> {
+    if element.attribute("type") == Some("area") {
+        let what = "an area emitter outside of a shape".to_owned();
+        return Err(element.error(Problem::NotSupported { what, instead: "put it into the <shape>" }));
     }
     let kind = element.plugin("emitter", &FREE)?;
     let mut properties = Properties::new(element)?;
     let light = match kind {
+        "envmap" => return environment(context, element, properties).map(Free::Environment),
         "point" => {
             let intensity = properties.emission("intensity")?;
             let position = place(&mut properties, "position", DMat4::transform_point3, DVec3::ZERO)?;
@@ -59,7 +68,53 @@ pub(super) fn free(context: &mut Context<'_>, element: &Element) -> Result<AnyLi
     };
     properties.ignore(&["sampling_weight"]);
     properties.finish(context)?;
-    light.map_err(|e| element.error(e))
+    light.map(Free::Light).map_err(|e| element.error(e))
+}
+
+/// A picture of the light from all around.
+fn environment(
+    context: &mut Context<'_>,
+    element: &Element,
+    mut properties: Properties<'_>,
+) -> Result<EnvironmentDescription, LoadError> {
+    let (named, name) = properties
+        .text("filename")?
+        .ok_or_else(|| element.error(Problem::Missing { what: "the property \"filename\"".to_owned() }))?;
+    let scale = properties.float_or("scale", 1.0)? as f32;
+    let to_world = match properties.transform("to_world")? {
+        Some((at, m)) => rotation(&m).map_err(|problem| at.error(problem))?,
+        None => Mat3::IDENTITY,
+    };
+    // How it is sampled is the renderer's business.
+    properties.ignore(&["sampling_weight", "mis_compensation"]);
+    properties.finish(context)?;
+    let path = context.find(named, name);
+    let refused = |problem| named.error(problem);
+    let mut image = read_image(&path, Encoding::Srgb)
+        .map_err(|source| refused(Problem::Image { path: path.clone(), source }))?;
+    let (width, height) = (image.width, image.height);
+    if width.abs_diff(2 * height) > height / 8 {
+        let text = format!(
+            "{} has {width}×{height} texels; one in longitude and latitude is twice as wide as high",
+            path.display()
+        );
+        context.warn(element, &text);
+    }
+    image.texels.iter_mut().for_each(|texel| *texel *= scale);
+    EnvironmentMap::new(&image.texels, image.width, image.height, to_world)
+        .map_err(|source| refused(Problem::Map { path, source }))?;
+    Ok(EnvironmentDescription { image: Arc::new(image), to_world, density: EnvironmentDensity::Auto })
+}
+
+/// A transform that turns and mirrors; where it moves things to is no matter to what is infinitely far.
+fn rotation(m: &DMat4) -> Result<Mat3, Problem> {
+    let linear = DMat3::from_mat4(*m);
+    let off = linear.transpose() * linear - DMat3::IDENTITY;
+    if off.to_cols_array().iter().all(|v| v.abs() <= RIGID) {
+        Ok(linear.as_mat3())
+    } else {
+        Err(Problem::Transform { must: "only turn or mirror an environment map" })
+    }
 }
 
 /// A position or direction: either given as such, or the image of `own` under `to_world`.

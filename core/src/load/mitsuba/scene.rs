@@ -2,14 +2,15 @@
 
 use super::context::Context;
 use super::element::Element;
+use super::emitter::Free;
 use super::material::Materials;
 use super::properties::Properties;
 use super::sensor::Sensor;
 use super::shape::{self, Form};
 use super::{emitter, integrator, sensor};
 use crate::build::{
-    CameraDescription, Description, Emission, FovAxis, Geometry, IntegratorDescription, Object,
-    ProjectionDescription,
+    CameraDescription, Description, Emission, EnvironmentDescription, FovAxis, Geometry,
+    IntegratorDescription, Object, ProjectionDescription,
 };
 use crate::camera::View;
 use crate::film::{Film, Filter};
@@ -36,6 +37,7 @@ struct Parts<'e> {
     materials: Materials,
     objects: Vec<Object>,
     lights: Vec<AnyLight<'static>>,
+    environments: Vec<EnvironmentDescription>,
 }
 
 /// The scene of a document.
@@ -90,14 +92,17 @@ impl<'e> Parts<'e> {
 
     fn light(&mut self, context: &mut Context<'_>, element: &'e Element) -> Result<(), LoadError> {
         let light = emitter::free(context, element)?;
-        if light.is_environment() {
+        if matches!(&light, Free::Environment(_)) || matches!(&light, Free::Light(l) if l.is_environment()) {
             if let Some(first) = self.environment {
                 let what = "there is another light around the scene".to_owned();
                 return Err(element.error(Problem::Conflict { what, first: first.at.clone() }));
             }
             self.environment = Some(element);
         }
-        self.lights.push(light);
+        match light {
+            Free::Light(light) => self.lights.push(light),
+            Free::Environment(map) => self.environments.push(map),
+        }
         Ok(())
     }
 
@@ -154,7 +159,7 @@ impl<'e> Parts<'e> {
             materials: self.materials.list,
             objects: self.objects,
             lights: self.lights,
-            environments: Vec::new(),
+            environments: self.environments,
         })
     }
 }

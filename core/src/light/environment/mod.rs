@@ -1,0 +1,229 @@
+//! A picture of the radiance from all directions around the scene.
+
+mod density;
+pub(crate) mod grid;
+pub(crate) mod table;
+
+pub use density::EnvironmentDensity;
+pub use table::{EnvironmentTable, Lobe};
+
+use super::{Density, Emitter, LightError, LightSample, Receiver, SurfaceDensity};
+use crate::Rgb;
+use crate::geom::Frame;
+use crate::num;
+use crate::warp;
+use glam::{Mat3, Vec3};
+use grid::{Grid, Place};
+use table::{Chosen, Levels};
+
+/// How far a transform may be from a rotation.
+const RIGID: f32 = 1e-4;
+
+/// An environment map in longitude and latitude, borrowed.
+///
+/// Radiance is interpolated between texels, and so is the density: bilinearly, in the same cells.
+/// (A sun of one texel, drawn by a density that is even over each cell instead, has a relative
+/// variance of 0.78 where this one has none.)
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EnvironmentMap<'a> {
+    texels: &'a [Rgb],
+    grid: Grid,
+    to_local: Mat3,
+    mean: f32,
+    table: Option<EnvironmentTable<'a>>,
+}
+
+impl<'a> EnvironmentMap<'a> {
+    /// Borrows a map. Directions are drawn by the receiver's cosine until there is a table.
+    ///
+    /// * `texels` – radiance (W m⁻² sr⁻¹), `width` × `height` of them, row by row from the zenith
+    ///   (`+y`) down to the nadir; the middle column lies toward `+z`, the first and the last toward
+    ///   `−z`, and columns go from `−x` to `+x`
+    /// * `to_world` – a rotation, or one with a mirror
+    ///
+    /// # Errors
+    /// When the number of texels is not `width` × `height`, one of them is negative or not finite, or
+    /// the transform is no rotation.
+    pub fn new(texels: &'a [Rgb], width: u32, height: u32, to_world: Mat3) -> Result<Self, LightError> {
+        if texels.is_empty() || texels.len() as u64 != u64::from(width) * u64::from(height) {
+            return Err(LightError::TexelCount { width, height, texels: texels.len() });
+        }
+        if let Some(index) = texels.iter().position(|t| !t.is_valid()) {
+            let (x, y) = (index as u32 % width, index as u32 / width);
+            return Err(LightError::Texel { x, y, radiance: texels[index] });
+        }
+        let to_local = to_world.transpose();
+        let off = to_local * to_world - Mat3::IDENTITY;
+        if !off.to_cols_array().iter().all(|v| v.abs() <= RIGID) {
+            return Err(LightError::NotARotation);
+        }
+        let grid = Grid { width, height };
+        Ok(Self { texels, grid, to_local, mean: mean(texels, &grid), table: None })
+    }
+
+    /// Draws directions by a table.
+    ///
+    /// # Errors
+    /// When the table was made for a map of another size.
+    pub fn with_table(self, table: EnvironmentTable<'a>) -> Result<Self, LightError> {
+        if table.fits(&Levels::new(&self.grid)) {
+            Ok(Self { table: Some(table), ..self })
+        } else {
+            Err(LightError::Table { width: self.grid.width, height: self.grid.height })
+        }
+    }
+
+    /// Columns and rows.
+    #[must_use]
+    pub const fn size(&self) -> [u32; 2] {
+        [self.grid.width, self.grid.height]
+    }
+
+    /// The four texels around a cell.
+    #[inline]
+    fn corners(&self, x: u32, y: u32) -> [Rgb; 4] {
+        self.grid.corners(x, y).map(|i| self.texels.get(i).copied().unwrap_or(Rgb::BLACK))
+    }
+
+    /// Density of the direction `d`, in the map's space, from what its cell is scaled by (sr⁻¹).
+    #[inline]
+    fn density(&self, table: &EnvironmentTable<'_>, place: &Place, d: Vec3, scale: f32) -> f32 {
+        let corners = self.corners(place.x, place.y).map(|texel| table.importance(texel));
+        bilinear(corners, place.s, self.grid.tau(place.y, d)) * scale
+    }
+
+    /// Draws a direction by the table, in the map's space, and says in which cell.
+    #[inline]
+    fn draw(
+        &self,
+        table: &EnvironmentTable<'_>,
+        levels: &Levels,
+        normal: Vec3,
+        mut u: [f32; 2],
+    ) -> Option<(Vec3, Chosen)> {
+        let column = num::TAU / self.grid.width as f32;
+        let mass = |[x, y]: [u32; 2]| {
+            let [a, b, c, d] = self.corners(x, y).map(|texel| table.importance(texel));
+            0.25 * (a + b + c + d) * (column * self.grid.drop(y))
+        };
+        let chosen = table.choose(levels, normal, &mut u, mass)?;
+        let [x, y] = chosen.cell;
+        let [a, b, c, d] = self.corners(x, y).map(|texel| table.importance(texel));
+        let tau = linear(a + b, c + d, u[1]);
+        let s = linear(a + (c - a) * tau, b + (d - b) * tau, u[0]);
+        Some((self.grid.direction(chosen.cell, s, tau), chosen))
+    }
+
+    /// A sample by the table. What is answered about it is answered for the direction as it was
+    /// rounded, which may lie in the next cell.
+    #[inline]
+    fn sample_by(&self, table: &EnvironmentTable<'_>, from: &Receiver, u: [f32; 2]) -> Option<LightSample> {
+        let (levels, normal) = (Levels::new(&self.grid), self.to_local * from.normal);
+        let (drawn, chosen) = self.draw(table, &levels, normal, u)?;
+        let wi = self.to_local.transpose() * drawn;
+        let local = self.to_local * wi;
+        let place = self.grid.place(local);
+        let cell = [place.x, place.y];
+        let scale = if cell == chosen.cell { chosen.scale } else { table.scale(&levels, normal, cell) };
+        let pdf = self.density(table, &place, local, scale);
+        (pdf > 0.0).then(|| escaping(wi, self.lookup(&place), pdf))
+    }
+
+    /// Radiance from a place (W m⁻² sr⁻¹).
+    #[inline]
+    fn lookup(&self, place: &Place) -> Rgb {
+        let corners = self.corners(place.x, place.y);
+        let channel = |c: fn(&Rgb) -> f32| bilinear([0, 1, 2, 3].map(|i| c(&corners[i])), place.s, place.t);
+        Rgb::new(channel(|t| t.r), channel(|t| t.g), channel(|t| t.b))
+    }
+}
+
+impl EnvironmentTable<'_> {
+    /// How much a texel draws directions toward it.
+    #[inline]
+    pub(crate) fn importance(&self, texel: Rgb) -> f32 {
+        let luminance = texel.luminance() * self.gain;
+        num::larger(luminance - self.offset, luminance * EnvironmentDensity::KEPT)
+    }
+}
+
+/// A sample from infinitely far away.
+#[inline]
+fn escaping(wi: Vec3, incident: Rgb, pdf: f32) -> LightSample {
+    LightSample { wi, distance: f32::INFINITY, incident, density: Density::SolidAngle(pdf) }
+}
+
+/// Between four values: above left, above right, below left, below right.
+#[inline]
+fn bilinear([a, b, c, d]: [f32; 4], s: f32, t: f32) -> f32 {
+    // As a weighted sum, which cannot leave the range of the values.
+    let (above, below) = (a * (1.0 - s) + b * s, c * (1.0 - s) + d * s);
+    above * (1.0 - t) + below * t
+}
+
+/// A number in `[0, 1]` with a density that goes linearly from `a` to `b`, not both 0, from a uniform.
+///
+/// Source: Pharr, Jakob, Humphreys 2023, *Physically Based Rendering*, 4th edition, section A.4.1.
+/// Differs: the ends are scaled first, so that their squares do not vanish.
+#[inline]
+fn linear(a: f32, b: f32, u: f32) -> f32 {
+    let sum = a + b;
+    if !(sum > 0.0) {
+        return u;
+    }
+    let (a, b) = (a / sum, b / sum);
+    let slope = a + num::sqrt(a * a * (1.0 - u) + b * b * u);
+    if slope > 0.0 { (u / slope).min(1.0) } else { 0.0 }
+}
+
+/// Mean of the radiance over the sphere, as average over the channels (W m⁻² sr⁻¹).
+fn mean(texels: &[Rgb], grid: &Grid) -> f32 {
+    let row_mean = |y: u32| {
+        let start = y as usize * grid.width as usize;
+        let row = texels.get(start..start + grid.width as usize).unwrap_or(&[]);
+        row.iter().map(|t| f64::from(t.average())).sum::<f64>() / f64::from(grid.width)
+    };
+    let (mut sum, mut above) = (0.0, row_mean(0));
+    for y in 0..grid.rows() {
+        let below = row_mean((y + 1).min(grid.height - 1));
+        sum += 0.25 * (above + below) * f64::from(grid.drop(y));
+        above = below;
+    }
+    sum.min(f64::from(f32::MAX)) as f32
+}
+
+impl Emitter for EnvironmentMap<'_> {
+    /// By the table, or by the cosine about the receiver's normal, `cos θ / π` (sr⁻¹).
+    #[inline]
+    fn sample(&self, from: &Receiver, _: SurfaceDensity, u: [f32; 2]) -> Option<LightSample> {
+        if let Some(table) = &self.table {
+            return self.sample_by(table, from, u);
+        }
+        let wi = Frame::from_normal(from.normal).to_world(warp::cosine_hemisphere(u));
+        let pdf = self.pdf_escaping(from, wi);
+        (pdf > 0.0).then(|| escaping(wi, self.radiance_escaping(wi), pdf))
+    }
+
+    #[inline]
+    fn pdf_escaping(&self, from: &Receiver, wi: Vec3) -> f32 {
+        let Some(table) = &self.table else { return warp::cosine_hemisphere_pdf(from.normal.dot(wi)) };
+        let local = self.to_local * wi;
+        let place = self.grid.place(local);
+        let scale = table.scale(&Levels::new(&self.grid), self.to_local * from.normal, [place.x, place.y]);
+        self.density(table, &place, local, scale)
+    }
+
+    #[inline]
+    fn radiance_escaping(&self, wi: Vec3) -> Rgb {
+        self.lookup(&self.grid.place(self.to_local * wi))
+    }
+
+    fn is_environment(&self) -> bool {
+        true
+    }
+
+    /// `4π² R²` times the mean radiance.
+    fn power(&self, scene_radius: f32) -> f32 {
+        4.0 * num::PI * num::PI * scene_radius * scene_radius * self.mean
+    }
+}
