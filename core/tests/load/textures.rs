@@ -184,13 +184,19 @@ fn a_picture_is_read_once_and_values_above_one_are_clamped_with_a_warning() {
     assert_eq!(values[3], Rgb::new(0.5, 1.0, 0.1));
 }
 
-#[test]
-fn bad_textures_are_refused_with_their_line_and_what_would_do() {
-    let matte =
-        |texture: &str| format!("<shape type=\"sphere\"><bsdf type=\"diffuse\">\n{texture}</bsdf></shape>");
-    let bitmap =
-        |inside: &str| matte(&format!("<texture type=\"bitmap\" name=\"reflectance\">{inside}</texture>"));
-    for (body, part) in [
+/// A matte sphere with something in its reflectance, on line 3.
+fn matte(texture: &str) -> String {
+    format!("<shape type=\"sphere\"><bsdf type=\"diffuse\">\n{texture}</bsdf></shape>")
+}
+
+/// The same with a bitmap.
+fn bitmap(inside: &str) -> String {
+    matte(&format!("<texture type=\"bitmap\" name=\"reflectance\">{inside}</texture>"))
+}
+
+/// Textures that are wrong, and a part of what is said of each.
+fn bad_textures() -> [(String, &'static str); 12] {
+    [
         (bitmap(""), "the property \"filename\" is missing"),
         (bitmap("<string name=\"filename\" value=\"none.png\"/>"), "none.png: "),
         (bitmap("<string name=\"filename\" value=\"scene.xml\"/>"), "scene.xml: "),
@@ -224,7 +230,12 @@ fn bad_textures_are_refused_with_their_line_and_what_would_do() {
             ),
             "a colour of the texture is (-1, -1, -1)",
         ),
-    ] {
+    ]
+}
+
+#[test]
+fn bad_textures_are_refused_with_their_line_and_what_would_do() {
+    for (body, part) in bad_textures() {
         let message = with_picture("bad", texels(), &body).unwrap_err();
         assert!(message.starts_with("scene.xml:3: <") && message.contains(part), "{body}\n{message}");
     }

@@ -4,7 +4,7 @@ use crate::Rgb;
 use crate::bsdf::{AnyBsdf, BsdfError, GgxConductor, Lambert, Phong, TwoSided};
 use crate::build::{
     CameraDescription, Description, Emission, FovAxis, Geometry, IntegratorDescription, Material, Mesh,
-    Object, ProjectionDescription,
+    Object, ProjectionDescription, SkyError,
 };
 use crate::camera::{CameraError, View};
 use crate::film::Filter;
@@ -22,6 +22,7 @@ pub(super) enum BuiltinError {
     Bsdf(BsdfError),
     Light(LightError),
     Camera(CameraError),
+    Sky(SkyError),
 }
 
 impl fmt::Display for BuiltinError {
@@ -31,6 +32,7 @@ impl fmt::Display for BuiltinError {
             Self::Bsdf(e) => e.fmt(f),
             Self::Light(e) => e.fmt(f),
             Self::Camera(e) => e.fmt(f),
+            Self::Sky(e) => e.fmt(f),
         }
     }
 }
@@ -40,6 +42,12 @@ impl core::error::Error for BuiltinError {}
 impl From<ShapeError> for BuiltinError {
     fn from(e: ShapeError) -> Self {
         Self::Shape(e)
+    }
+}
+
+impl From<SkyError> for BuiltinError {
+    fn from(e: SkyError) -> Self {
+        Self::Sky(e)
     }
 }
 

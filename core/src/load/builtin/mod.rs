@@ -25,7 +25,7 @@ pub struct Builtin {
 }
 
 /// All built-in scenes; the first is the one that is rendered when none is asked for.
-pub const BUILTIN: [Builtin; 8] = [
+pub const BUILTIN: [Builtin; 9] = [
     Builtin {
         name: "still-life",
         about: "things on a table under one rectangle of light: shadows sharp at the contact, wide away from it",
@@ -45,6 +45,11 @@ pub const BUILTIN: [Builtin; 8] = [
         name: "sky",
         about: "a small town of clay under an even sky: no lamp, only how much of the sky each point sees",
         make: sky::make,
+    },
+    Builtin {
+        name: "morning",
+        about: "the town on a clear morning: a low sun of its true width, and the sky that goes with it",
+        make: sky::make_morning,
     },
     Builtin {
         name: "lanterns",

@@ -1,14 +1,33 @@
-//! `sky`: a small town of clay under an even sky.
+//! `sky` and `morning`: a small town of clay, under an even sky and on a clear day.
 
 use super::author::{Author, BuiltinError, Shot};
 use super::mesh::{Pose, append, arc, cuboid, lathe, portal, rounded_box, spline};
-use crate::build::{Description, Mesh};
+use crate::build::{Description, Mesh, Sky};
 use crate::light::{AnyLight, Constant};
 use crate::num::{self, TAU};
 use glam::{Vec2, Vec3};
 use std::vec::Vec;
 
+/// The town under an even sky.
 pub(super) fn make() -> Result<Description, BuiltinError> {
+    let mut author = town()?;
+    author.light(AnyLight::Constant(Constant::new([1.05, 1.12, 1.2].into())?));
+    author.scene("sky", shot())
+}
+
+/// The town on a clear morning.
+pub(super) fn make_morning() -> Result<Description, BuiltinError> {
+    let mut description = town()?.scene("morning", shot())?;
+    Sky::new(24.0, 258.0, Sky::CLEAR)?.scaled(Sky::EXPOSED).surround(&mut description)?;
+    Ok(description)
+}
+
+fn shot() -> Shot {
+    let to = Vec3::new(0.1, 2.0, 0.0);
+    Shot::orthographic(to + Vec3::new(9.0, 8.2, 12.0), to, 6.95)
+}
+
+fn town() -> Result<Author, BuiltinError> {
     let mut author = Author::default();
     let clay = author.matte("clay", [0.80, 0.775, 0.74])?;
     let tile = author.matte("tile", [0.70, 0.36, 0.25])?;
@@ -24,10 +43,7 @@ pub(super) fn make() -> Result<Description, BuiltinError> {
     let leaf = author.matte("leaf", [0.30, 0.40, 0.24])?;
     author.mesh("cypresses", cypresses(), leaf);
     author.mesh("fountain", fountain(), clay);
-    author.light(AnyLight::Constant(Constant::new([1.05, 1.12, 1.2].into())?));
-    let to = Vec3::new(0.1, 2.0, 0.0);
-    let shot = Shot::orthographic(to + Vec3::new(9.0, 8.2, 12.0), to, 6.95);
-    author.scene("sky", shot)
+    Ok(author)
 }
 
 /// A block that stands on height `y`.

@@ -12,6 +12,8 @@ use crate::Rgb;
 use crate::build::Image;
 use crate::num;
 use ::image::{DynamicImage, ImageReader, Limits};
+use std::fs::File;
+use std::io::BufReader;
 use std::path::Path;
 use std::vec::Vec;
 
@@ -49,11 +51,13 @@ pub fn read_image(path: &Path, encoding: Encoding) -> Result<Image, ImageError> 
 
 /// The picture as the file has it.
 fn decoded(path: &Path) -> Result<DynamicImage, ImageError> {
-    let mut reader = ImageReader::open(path)?.with_guessed_format()?;
+    // The bytes decide, and not the name: the name would choose a reader that finds something else wrong.
+    let open = || ImageReader::new(BufReader::new(File::open(path)?)).with_guessed_format();
+    let mut reader = open()?;
     let mut limits = Limits::no_limits();
     limits.max_alloc = Some(MAX_TEXELS * 12);
     reader.limits(limits);
-    let (width, height) = ImageReader::open(path)?.with_guessed_format()?.into_dimensions()?;
+    let (width, height) = open()?.into_dimensions()?;
     check_size(width, height)?;
     Ok(reader.decode()?)
 }
