@@ -18,7 +18,8 @@ pub(super) fn make() -> Result<Description, BuiltinError> {
 /// The town on a clear morning.
 pub(super) fn make_morning() -> Result<Description, BuiltinError> {
     let mut description = town()?.scene("morning", shot())?;
-    Sky::new(24.0, 258.0, Sky::CLEAR)?.scaled(Sky::EXPOSED).surround(&mut description)?;
+    // Lets what lies in the sun be near white.
+    Sky::new(35.0, 235.0, 2.5)?.scaled(1.6 * Sky::EXPOSED).surround(&mut description)?;
     Ok(description)
 }
 
