@@ -142,8 +142,7 @@ fn table(inspected: &Inspected<'_>) -> String {
         ("samples", samples),
         ("surfaces", listed(&contents.shapes)),
         ("materials", listed_materials(&contents.materials)),
-        ("lights", listed(&contents.lights)),
-        ("map", environment(description)),
+        ("lights", lights(&contents.lights, description)),
         ("tree", format!("{}, stack {} of {STACK}", counted(stats.nodes as u64, "node"), stats.stack)),
         ("memory", format!("{} scene, {} film", bytes(stats.bytes as u64), bytes(film_bytes(description)))),
         ("auto takes", plan.as_ref().map_or_else(|| "nothing: there is no light".to_owned(), choices)),
@@ -152,11 +151,11 @@ fn table(inspected: &Inspected<'_>) -> String {
     rows.iter().map(|(name, value)| format!("{name:10}  {value}")).collect::<Vec<_>>().join("\n")
 }
 
-/// The maps of the environment in words.
-fn environment(description: &Description) -> String {
-    let map = |m: &EnvironmentDescription| format!("{}×{} texels", m.image.width, m.image.height);
-    let maps: Vec<_> = description.environments.iter().map(map).collect();
-    if maps.is_empty() { "no map".to_owned() } else { maps.join(", ") }
+/// The lights, and how large the maps among them are.
+fn lights(kinds: &Kinds, description: &Description) -> String {
+    let map = |m: &EnvironmentDescription| format!(" ({}×{} texels)", m.image.width, m.image.height);
+    let maps: String = description.environments.iter().map(map).collect();
+    listed(kinds) + &maps
 }
 
 /// The description for scripts.

@@ -1,6 +1,6 @@
 //! `halflight render`: a scene to a picture.
 
-use crate::args::RenderArgs;
+use crate::args::{Environment, RenderArgs};
 use crate::driver::{self, Rendered};
 use crate::failure::{Exit, Failure};
 use crate::interrupt::on_interrupt;
@@ -44,6 +44,9 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Exit, Failure> {
     let mut prepared = prepare(args)?;
     if args.exposure.is_some() && !format.is_8_bit() {
         prepared.warn(format!("--exposure has no effect on {}; it is for .png", args.output.display()));
+    }
+    if args.choices.environment != Environment::Auto && prepared.found.description.environments.is_empty() {
+        prepared.warn("--environment has no effect: the scene has no environment map".to_owned());
     }
     let start = Instant::now();
     let rendered = pool.install(|| render(args, &prepared))?;
