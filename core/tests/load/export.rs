@@ -4,6 +4,7 @@ use crate::folder;
 use halflight::build::{CameraDescription, Description, Geometry, Mesh, Object};
 use halflight::film::Filter;
 use halflight::glam::Vec3;
+use halflight::light::AnyLight;
 use halflight::load::builtin::{BUILTIN, builtin};
 use halflight::load::{ExportError, LoadOptions, export_mitsuba, load};
 use halflight::shape::{AnyShape, Triangle};
@@ -84,6 +85,18 @@ fn assert_same_camera(a: &CameraDescription, b: &CameraDescription) {
     assert_eq!(a.view.origin, b.view.origin);
 }
 
+/// A sun is written as parallel light: Mitsuba has none of some width outside of its own sky.
+#[track_caller]
+fn assert_same_light(again: &AnyLight<'_>, light: &AnyLight<'_>) {
+    match (again, light) {
+        (AnyLight::Directional(again), AnyLight::DistantDisk(sun)) => {
+            assert!((again.direction() + sun.axis()).length() < 1e-6);
+            assert_eq!(again.irradiance(), sun.irradiance());
+        }
+        _ => assert_eq!(again, light),
+    }
+}
+
 #[test]
 fn every_built_in_scene_comes_back() {
     for name in BUILTIN.map(|b| b.name) {
@@ -96,7 +109,10 @@ fn every_built_in_scene_comes_back() {
             (again.width, again.height, again.filter),
             (description.width, description.height, description.filter)
         );
-        assert_eq!(again.lights, description.lights);
+        assert_eq!(again.lights.len(), description.lights.len(), "{name}");
+        for (again, light) in again.lights.iter().zip(&description.lights) {
+            assert_same_light(again, light);
+        }
         assert_eq!(again.objects.len(), description.objects.len());
         for (a, b) in again.objects.iter().zip(&description.objects) {
             assert_eq!(
