@@ -122,13 +122,16 @@ impl Direct<'_> {
         let lights = scene.lights().len();
         let draws = plan.light.max(1);
         let mut sum = Rgb::BLACK;
+        let chooses = self.choice != LightChoice::All;
         for light in self.choice.not_chosen(lights) {
+            // The best dimension is for the chosen light, where one is chosen.
+            let dimension = Dimension::Light(light as u32 + u32::from(chooses));
             for draw in 0..draws {
-                let u = sequence.point(Dimension::Light(light as u32), draw, draws);
+                let u = sequence.point(dimension, draw, draws);
                 sum += self.toward(scene, shading, plan, light, 1.0, u);
             }
         }
-        if self.choice != LightChoice::All {
+        if chooses {
             for draw in 0..draws {
                 let u = sequence.choice(Dimension::Light(0), draw, draws);
                 let more = || sequence.choice(Dimension::Choice, draw, draws);
