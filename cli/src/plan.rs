@@ -1,6 +1,6 @@
 //! From the choices on the command line, `auto` among them, to an estimator.
 
-use crate::args::{Choices, Choose, Environment, Heuristic, Lights, Sequence, Technique};
+use crate::args::{Choices, Choose, Environment, Heuristic, Lights, Portals, Sequence, Technique};
 use crate::failure::Failure;
 use halflight::build::{BoundScene, Description, IntegratorDescription, SceneBuffers};
 use halflight::choose::LightChoice;
@@ -53,6 +53,7 @@ pub(crate) fn check(choices: &Choices) -> Result<(), Failure> {
         ("--bsdf-samples", choices.bsdf_samples.is_some(), &[Auto, Bsdf, Mis, Control]),
         ("--lights", choices.lights != Lights::Auto, &[Auto, Light, Bsdf, Mis, Control]),
         ("--environment", choices.environment != Environment::Auto, &[Auto, Light, Bsdf, Mis, Control]),
+        ("--portals", choices.portals == Portals::Off, &[Auto, Light, Bsdf, Mis, Control]),
         ("--choose", choices.choose != Choose::Auto, &[Auto, Light, Bsdf, Mis, Control]),
         ("--occlusion-distance", choices.occlusion_distance.is_some(), &[Occlusion]),
     ];
@@ -278,6 +279,9 @@ pub(crate) fn choose_environment(choices: &Choices, description: &mut Descriptio
         Environment::Product => EnvironmentDensity::Product,
     };
     description.environments.iter_mut().for_each(|map| map.density = density);
+    if choices.portals == Portals::Off {
+        description.portals.clear();
+    }
 }
 
 impl fmt::Display for Choice {

@@ -53,6 +53,7 @@ impl Stage {
             objects: Vec::new(),
             lights: Vec::new(),
             environments: Vec::new(),
+            portals: Vec::new(),
         })
     }
 

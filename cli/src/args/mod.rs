@@ -3,7 +3,9 @@
 mod render;
 mod values;
 
-pub(crate) use render::{Choices, Choose, Environment, Heuristic, Lights, RenderArgs, Sequence, Technique};
+pub(crate) use render::{
+    Choices, Choose, Environment, Heuristic, Lights, Portals, RenderArgs, Sequence, Technique,
+};
 
 use clap::builder::Styles;
 use clap::builder::styling::{AnsiColor, Style};

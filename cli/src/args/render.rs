@@ -98,6 +98,10 @@ pub(crate) struct Choices {
     #[arg(long, value_enum, value_name = "HOW", default_value_t)]
     pub(crate) environment: Environment,
 
+    /// Whether directions toward the sky are drawn through the scene's portals, where it has some
+    #[arg(long, value_enum, value_name = "WHETHER", default_value_t)]
+    pub(crate) portals: Portals,
+
     /// Where the uniform numbers come from
     #[arg(long, value_enum, value_name = "HOW", default_value_t)]
     pub(crate) sequence: Sequence,
@@ -185,6 +189,16 @@ pub(crate) enum Environment {
     Compensated,
     /// By luminance times the cosine at the surface
     Product,
+}
+
+/// Whether the scene's portals are used.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub(crate) enum Portals {
+    /// Half of the samples go through them
+    #[default]
+    On,
+    /// As if the scene had none
+    Off,
 }
 
 /// Where the uniform numbers come from.

@@ -151,11 +151,15 @@ fn table(inspected: &Inspected<'_>) -> String {
     rows.iter().map(|(name, value)| format!("{name:10}  {value}")).collect::<Vec<_>>().join("\n")
 }
 
-/// The lights, and how large the maps among them are.
+/// The lights, how large the maps among them are, and how many portals there are.
 fn lights(kinds: &Kinds, description: &Description) -> String {
     let map = |m: &EnvironmentDescription| format!(" ({}×{} texels)", m.image.width, m.image.height);
     let maps: String = description.environments.iter().map(map).collect();
-    listed(kinds) + &maps
+    let portals = match description.portals.len() as u64 {
+        0 => String::new(),
+        n => format!(" ({})", counted(n, "portal")),
+    };
+    listed(kinds) + &maps + &portals
 }
 
 /// The description for scripts.
@@ -182,6 +186,7 @@ fn object(inspected: &Inspected<'_>) -> Value {
         "lights": counts(&contents.lights),
         "environment_maps": description.environments.iter()
             .map(|m| json!({ "width": m.image.width, "height": m.image.height })).collect::<Vec<_>>(),
+        "portals": description.portals.len(),
         "tree": { "nodes": stats.nodes, "stack": stats.stack, "stack_limit": STACK },
         "bytes": stats.bytes,
         "auto": choices,

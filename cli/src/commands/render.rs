@@ -1,6 +1,6 @@
 //! `halflight render`: a scene to a picture.
 
-use crate::args::{Environment, RenderArgs};
+use crate::args::{Environment, Portals, RenderArgs};
 use crate::driver::{self, Rendered};
 use crate::failure::{Exit, Failure};
 use crate::interrupt::on_interrupt;
@@ -14,6 +14,7 @@ use crate::scene::{self, Found};
 use crate::terminal;
 use halflight::build::{Description, SceneBuffers};
 use halflight::estimate::{Job, PixelStats};
+use halflight::light::Emitter;
 use halflight::{Camera, Film};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::hint::black_box;
@@ -33,6 +34,8 @@ struct Prepared {
     plan: Plan,
     samples: u32,
     seconds: Seconds,
+    /// Whether the scene has portals, used or not.
+    has_portals: bool,
 }
 
 /// Renders a scene and writes the picture.
@@ -45,9 +48,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Exit, Failure> {
     if args.exposure.is_some() && !format.is_8_bit() {
         prepared.warn(format!("--exposure has no effect on {}; it is for .png", args.output.display()));
     }
-    if args.choices.environment != Environment::Auto && prepared.found.description.environments.is_empty() {
-        prepared.warn("--environment has no effect: the scene has no environment map".to_owned());
-    }
+    without_effect(args, &prepared).into_iter().for_each(|text| prepared.warn(text.to_owned()));
     let start = Instant::now();
     let rendered = pool.install(|| render(args, &prepared))?;
     prepared.seconds.render = start.elapsed().as_secs_f64();
@@ -63,6 +64,28 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Exit, Failure> {
     tell(args, &report(args, prepared, &rendered, pool.current_num_threads()))
 }
 
+/// What was asked for, or stands in the scene, in vain.
+fn without_effect(args: &RenderArgs, prepared: &Prepared) -> Vec<&'static str> {
+    let description = &prepared.found.description;
+    let has_map = !description.environments.is_empty();
+    let has_sky = has_map || description.lights.iter().any(Emitter::is_environment);
+    let asked = [
+        (
+            args.choices.environment != Environment::Auto && !has_map,
+            "--environment has no effect: the scene has no environment map",
+        ),
+        (
+            args.choices.portals == Portals::Off && !prepared.has_portals,
+            "--portals has no effect: the scene has no portals",
+        ),
+        (
+            prepared.has_portals && !has_sky,
+            "the portals have no effect: no light surrounds the scene; --sky puts one there",
+        ),
+    ];
+    asked.into_iter().filter(|(in_vain, _)| *in_vain).map(|(_, text)| text).collect()
+}
+
 /// The threads that render.
 fn pool(args: &RenderArgs) -> Result<ThreadPool, Failure> {
     let threads = args.threads.unwrap_or_else(|| available_parallelism().map_or(1, usize::from));
@@ -76,13 +99,14 @@ fn pool(args: &RenderArgs) -> Result<ThreadPool, Failure> {
 fn prepare(args: &RenderArgs) -> Result<Prepared, Failure> {
     let mut seconds = Seconds::default();
     let name = scene::shown(args.scene.as_deref());
-    let found = {
+    let (found, has_portals) = {
         let _step = Step::begin(format!("reading {name}"), args.quiet);
         let start = Instant::now();
         let mut found = scene::find(args.scene.as_deref(), &args.reading)?;
+        let has_portals = !found.description.portals.is_empty();
         plan::choose_environment(&args.choices, &mut found.description);
         seconds.load = start.elapsed().as_secs_f64();
-        found
+        (found, has_portals)
     };
     found.print_warnings();
     let (film, camera) = view(args, &found.description)?;
@@ -102,7 +126,7 @@ fn prepare(args: &RenderArgs) -> Result<Prepared, Failure> {
             .tip("choose some with --spp"));
     }
     let degenerate = buffers.stats().degenerate as u64;
-    let mut prepared = Prepared { found, buffers, camera, film, plan, samples, seconds };
+    let mut prepared = Prepared { found, buffers, camera, film, plan, samples, seconds, has_portals };
     if degenerate > 0 {
         prepared.warn(format!("{} without area left out", counted(degenerate, "triangle")));
     }

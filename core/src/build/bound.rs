@@ -2,7 +2,7 @@
 
 use super::{BuildError, SceneBuffers};
 use crate::bvh::Bvh;
-use crate::light::{AnyLight, EnvironmentMap};
+use crate::light::{AnyLight, Emitter, EnvironmentMap, Portal, Portals};
 use crate::material::AnyMaterial;
 use crate::scene::{AnyScene, Scene, Tables};
 use crate::shape::AnyShape;
@@ -19,6 +19,15 @@ pub struct BoundScene<'a> {
     bvh: Bvh<'a>,
 }
 
+/// Puts the lights that fill the sky behind the portals.
+fn behind<'a>(light: AnyLight<'a>, portals: &'a [Portal]) -> AnyLight<'a> {
+    match light {
+        AnyLight::Constant(light) => AnyLight::ConstantPortals(Portals::new(light, portals)),
+        AnyLight::EnvironmentMap(light) => AnyLight::EnvironmentPortals(Portals::new(light, portals)),
+        other => other,
+    }
+}
+
 impl<'a> BoundScene<'a> {
     pub(super) fn new(buffers: &'a SceneBuffers) -> Result<Self, BuildError> {
         let mut lights: Cow<'a, [AnyLight<'a>]> = Cow::Borrowed(&buffers.lights);
@@ -31,6 +40,9 @@ impl<'a> BoundScene<'a> {
                 .and_then(|map| tables.table().map_or(Ok(map), |table| map.with_table(table)))
                 .map_err(|source| BuildError::Light { object: "the environment map".to_string(), source })?;
             lights.to_mut().push(AnyLight::EnvironmentMap(map));
+        }
+        if !buffers.portals.is_empty() && lights.iter().any(Emitter::is_environment) {
+            lights.to_mut().iter_mut().for_each(|light| *light = behind(*light, &buffers.portals));
         }
         let mut materials: Cow<'a, [AnyMaterial<'a>]> = Cow::Borrowed(&buffers.materials);
         for (index, material) in &buffers.textured {

@@ -9,7 +9,7 @@ use super::{
 use crate::bvh::Node;
 use crate::choose::{LightTree, PowerTable};
 use crate::geom::Aabb;
-use crate::light::{AnyLight, Emitter};
+use crate::light::{AnyLight, Emitter, Portal};
 use crate::material::AnyMaterial;
 use crate::scene::{CornerNormals, CornerUvs, NONE, Surface};
 use crate::shape::{AnyShape, Shape};
@@ -31,6 +31,7 @@ pub struct SceneBuffers {
     pub(super) lights: Vec<AnyLight<'static>>,
     pub(super) painted: Vec<PaintedBuffer>,
     pub(super) environments: Vec<(EnvironmentDescription, EnvironmentTables)>,
+    pub(super) portals: Vec<Portal>,
     pub(super) materials: Vec<AnyMaterial<'static>>,
     /// Those that have textures, each with its index.
     pub(super) textured: Vec<(usize, Material)>,
@@ -94,6 +95,7 @@ impl SceneBuffers {
             lights: Vec::new(),
             painted: Vec::new(),
             environments: description.environments.iter().map(with_tables).collect(),
+            portals: description.portals.clone(),
             materials: description.materials.iter().map(|m| AnyMaterial::Plain(m.bsdf)).collect(),
             textured: textured(&description.materials),
             power: Vec::new(),
@@ -250,6 +252,7 @@ impl SceneBuffers {
                 + self.texel_bytes()
                 + self.painted.iter().map(PaintedBuffer::bytes).sum::<usize>()
                 + size_of_val(&*self.lights)
+                + size_of_val(&*self.portals)
                 + size_of_val(&*self.materials)
                 + size_of_val(&*self.power)
                 + self

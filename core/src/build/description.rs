@@ -8,7 +8,7 @@ use crate::Rgb;
 use crate::bsdf::{AnyBsdf, TwoSided};
 use crate::camera::{Camera, CameraError, View};
 use crate::film::Filter;
-use crate::light::{AnyLight, EnvironmentDensity};
+use crate::light::{AnyLight, EnvironmentDensity, Portal};
 use crate::num;
 use crate::shape::AnyShape;
 use crate::texture::ObjectSpace;
@@ -42,6 +42,9 @@ pub struct Description {
     pub lights: Vec<AnyLight<'static>>,
     /// Pictures of the light from all around.
     pub environments: Vec<EnvironmentDescription>,
+    /// Openings through which the light from all around comes into the room; none outdoors. A sun of
+    /// its own is drawn without them.
+    pub portals: Vec<Portal>,
 }
 
 /// A picture of the light from all around, with a place of its own in the scene's description because

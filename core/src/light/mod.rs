@@ -18,6 +18,7 @@ mod luminance;
 mod painted;
 mod point;
 mod polygon;
+mod portals;
 mod projected_view;
 mod radiance;
 mod rectangle;
@@ -41,6 +42,7 @@ pub use luminance::LuminanceGrid;
 pub use painted::{PaintedLight, PaintedRectangle};
 pub use point::Point;
 pub use polygon::PolygonSolidAngle;
+pub use portals::{Portal, Portals};
 pub use projected_view::{FlatShape, ProjectedView};
 pub use radiance::{Paint, Painted, SurfaceRadiance};
 pub use rectangle::RectangleSolidAngle;
@@ -180,6 +182,10 @@ pub enum AnyLight<'a> {
     DistantDisk(DistantDisk),
     /// A picture of the radiance from everywhere.
     EnvironmentMap(EnvironmentMap<'a>),
+    /// The same radiance from everywhere, seen through openings.
+    ConstantPortals(Portals<'a, Constant>),
+    /// A picture of the radiance from everywhere, seen through openings.
+    EnvironmentPortals(Portals<'a, EnvironmentMap<'a>>),
 }
 
 /// The only list of variants; every method goes through it.
@@ -198,13 +204,15 @@ macro_rules! each_light {
             AnyLight::Constant($inner) => $body,
             AnyLight::DistantDisk($inner) => $body,
             AnyLight::EnvironmentMap($inner) => $body,
+            AnyLight::ConstantPortals($inner) => $body,
+            AnyLight::EnvironmentPortals($inner) => $body,
         }
     };
 }
 
 impl AnyLight<'_> {
     /// The kinds of light, by name.
-    pub const NAMES: [&'static str; 12] = [
+    pub const NAMES: [&'static str; 14] = [
         "rectangle",
         "disk",
         "sphere",
@@ -217,6 +225,8 @@ impl AnyLight<'_> {
         "constant",
         "distant",
         "envmap",
+        "constant through portals",
+        "envmap through portals",
     ];
 
     /// The name of this kind of light.
@@ -235,6 +245,8 @@ impl AnyLight<'_> {
             Self::Constant(_) => 9,
             Self::DistantDisk(_) => 10,
             Self::EnvironmentMap(_) => 11,
+            Self::ConstantPortals(_) => 12,
+            Self::EnvironmentPortals(_) => 13,
         };
         Self::NAMES[index]
     }

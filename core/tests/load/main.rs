@@ -6,6 +6,7 @@ mod errors;
 mod export;
 mod files;
 mod geometry;
+mod portals;
 mod scenes;
 mod textures;
 

@@ -196,6 +196,7 @@ impl Author {
             objects: self.objects,
             lights: self.lights,
             environments: Vec::new(),
+            portals: Vec::new(),
         })
     }
 }

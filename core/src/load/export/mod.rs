@@ -59,6 +59,9 @@ pub fn export_mitsuba(description: &Description, path: &Path) -> Result<(), Expo
     for light in &description.lights {
         parts::light(&mut xml, light)?;
     }
+    for (index, portal) in description.portals.iter().enumerate() {
+        parts::portal(&mut xml, portal, index);
+    }
     for map in &description.environments {
         let file = files.unique(&format!("{stem}-environment")) + ".exr";
         write_whole(&path.with_file_name(&file), |out| write_exr(&map.image, out).map_err(io::Error::other))?;

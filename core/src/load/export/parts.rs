@@ -12,7 +12,7 @@ use crate::build::{
 use crate::camera::View;
 use crate::film::Filter;
 use crate::geom::Frame;
-use crate::light::{AnyLight, Emitter, Spot};
+use crate::light::{AnyLight, Emitter, Portal, Spot};
 use crate::shape::AnyShape;
 use crate::texture::{Kind, ObjectSpace, Pattern};
 use glam::{DMat3, DVec3, Vec3};
@@ -289,6 +289,18 @@ pub(super) fn emission(
     Ok(())
 }
 
+/// An opening for the light from all around.
+pub(super) fn portal(xml: &mut Xml, portal: &Portal, index: usize) {
+    if index == 0 {
+        xml.remark("Mitsuba has no portals: leave these rectangles out there");
+    }
+    xml.open_plugin("shape", "rectangle", None);
+    analytic(xml, &AnyShape::Rectangle(*portal.shape()));
+    xml.open_plugin("emitter", "portal", None);
+    xml.close("emitter");
+    xml.close("shape");
+}
+
 /// An environment map whose picture is in a file.
 pub(super) fn environment(xml: &mut Xml, map: &EnvironmentDescription, file: &str) {
     let [x, y, z] = [map.to_world.x_axis, map.to_world.y_axis, map.to_world.z_axis].map(|v| v.as_dvec3());
@@ -307,7 +319,8 @@ pub(super) fn light(xml: &mut Xml, light: &AnyLight) -> Result<(), ExportError> 
         | AnyLight::Triangle(_)
         | AnyLight::Cylinder(_)
         | AnyLight::Painted(_)
-        | AnyLight::EnvironmentMap(_) => return Err(ExportError::SurfaceLight { kind: light.name() }),
+        | AnyLight::EnvironmentMap(_)
+        | AnyLight::EnvironmentPortals(_) => return Err(ExportError::SurfaceLight { kind: light.name() }),
         AnyLight::Point(l) => {
             xml.open_plugin("emitter", "point", None);
             coordinates(xml, "point", "position", l.position().as_dvec3());
@@ -325,9 +338,9 @@ pub(super) fn light(xml: &mut Xml, light: &AnyLight) -> Result<(), ExportError> 
             coordinates(xml, "vector", "direction", -l.axis().as_dvec3());
             xml.rgb("irradiance", l.irradiance());
         }
-        AnyLight::Constant(l) => {
+        AnyLight::Constant(_) | AnyLight::ConstantPortals(_) => {
             xml.open_plugin("emitter", "constant", None);
-            xml.rgb("radiance", l.radiance_escaping(Vec3::Z));
+            xml.rgb("radiance", light.radiance_escaping(Vec3::Z));
         }
     }
     xml.close("emitter");

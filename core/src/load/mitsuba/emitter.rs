@@ -4,11 +4,12 @@ use super::context::Context;
 use super::element::Element;
 use super::properties::Properties;
 use super::texture;
-use crate::build::{Emission, EnvironmentDescription};
+use crate::build::{Emission, EnvironmentDescription, Geometry};
 use crate::light::{
-    AnyLight, Constant, Directional, EnvironmentDensity, EnvironmentMap, LightError, Point, Spot,
+    AnyLight, Constant, Directional, EnvironmentDensity, EnvironmentMap, LightError, Point, Portal, Spot,
 };
 use crate::load::{Encoding, LoadError, Problem, read_image};
+use crate::shape::AnyShape;
 use glam::{DMat3, DMat4, DVec3, Mat3};
 use std::borrow::ToOwned;
 use std::format;
@@ -28,9 +29,29 @@ pub(super) enum Free {
     Environment(EnvironmentDescription),
 }
 
+/// The emitter that makes a rectangle an opening for the light from all around. Mitsuba has none.
+pub(super) const PORTAL: &str = "portal";
+
+/// The opening that a shape is.
+pub(super) fn portal(
+    context: &mut Context<'_>,
+    element: &Element,
+    geometry: &Geometry,
+) -> Result<Portal, LoadError> {
+    element.plugin("emitter of a shape", &[PORTAL])?;
+    Properties::new(element)?.finish(context)?;
+    match geometry {
+        Geometry::Shape(AnyShape::Rectangle(shape)) => Portal::new(*shape).map_err(|e| element.error(e)),
+        _ => {
+            let what = "a portal of another shape".to_owned();
+            Err(element.error(Problem::NotSupported { what, instead: "use <shape type=\"rectangle\">" }))
+        }
+    }
+}
+
 /// What a surface emits.
 pub(super) fn surface(context: &mut Context<'_>, element: &Element) -> Result<Emission, LoadError> {
-    element.plugin("emitter of a shape", &["area"])?;
+    element.plugin("emitter of a shape", &["area", PORTAL])?;
     let mut properties = Properties::new(element)?;
     let (radiance, texture) = texture::radiance(context, &mut properties, "radiance")?;
     let two_sided = properties.flag("two_sided")?;

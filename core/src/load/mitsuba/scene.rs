@@ -15,7 +15,7 @@ use crate::build::{
 use crate::camera::View;
 use crate::film::{Film, Filter};
 use crate::geom::Aabb;
-use crate::light::{AnyLight, Emitter};
+use crate::light::{AnyLight, Emitter, Portal};
 use crate::load::{LoadError, Problem};
 use crate::num;
 use crate::shape::Shape;
@@ -38,6 +38,7 @@ struct Parts<'e> {
     objects: Vec<Object>,
     lights: Vec<AnyLight<'static>>,
     environments: Vec<EnvironmentDescription>,
+    portals: Vec<Portal>,
 }
 
 /// The scene of a document.
@@ -109,6 +110,11 @@ impl<'e> Parts<'e> {
     fn shape(&mut self, context: &mut Context<'_>, element: &'e Element) -> Result<(), LoadError> {
         let mut properties = Properties::new(element)?;
         let Form { mut geometry, mut object_space } = shape::read(context, element, &mut properties)?;
+        let emitter = properties.single(&["emitter"])?;
+        if let Some(portal) = emitter.filter(|e| e.attribute("type") == Some(emitter::PORTAL)) {
+            self.portals.push(emitter::portal(context, portal, &geometry)?);
+            return properties.finish(context);
+        }
         let material = match properties.single(&["bsdf", "ref"])? {
             Some(bsdf) => {
                 let index = self.materials.index(context, bsdf);
@@ -116,7 +122,7 @@ impl<'e> Parts<'e> {
             }
             None => None,
         };
-        let emission = match properties.single(&["emitter"])? {
+        let emission = match emitter {
             Some(emitter) => {
                 let emission = emitter::surface(context, emitter);
                 context.tolerate(emission)?
@@ -160,6 +166,7 @@ impl<'e> Parts<'e> {
             objects: self.objects,
             lights: self.lights,
             environments: self.environments,
+            portals: self.portals,
         })
     }
 }
