@@ -4,6 +4,7 @@ mod author;
 mod colours;
 mod contact;
 mod cornell;
+mod gallery;
 mod lanterns;
 mod mesh;
 mod penumbra;
@@ -25,7 +26,7 @@ pub struct Builtin {
 }
 
 /// All built-in scenes; the first is the one that is rendered when none is asked for.
-pub const BUILTIN: [Builtin; 9] = [
+pub const BUILTIN: [Builtin; 10] = [
     Builtin {
         name: "still-life",
         about: "things on a table under one rectangle of light: shadows sharp at the contact, wide away from it",
@@ -50,6 +51,11 @@ pub const BUILTIN: [Builtin; 9] = [
         name: "morning",
         about: "the town on a clear morning: a low sun of its true width, and the sky that goes with it",
         make: sky::make_morning,
+    },
+    Builtin {
+        name: "gallery",
+        about: "sculptures in a room that sun and sky light through four windows, which are portals",
+        make: gallery::make,
     },
     Builtin {
         name: "lanterns",
