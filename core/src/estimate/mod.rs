@@ -2,8 +2,10 @@
 
 mod convergence;
 mod direct;
+mod gather;
 mod heuristic;
 mod job;
+mod observer;
 mod occlusion;
 mod shading;
 mod stats;
@@ -12,6 +14,7 @@ pub use convergence::{Convergence, DifferenceSums};
 pub use direct::{Direct, Technique};
 pub use heuristic::Heuristic;
 pub use job::{Job, passes};
+pub use observer::Observer;
 pub use occlusion::Occlusion;
 pub use stats::PixelStats;
 
@@ -28,12 +31,25 @@ pub trait Estimator {
     /// One sample of what arrives along `ray` from within `reach` (m).
     ///
     /// `sequence` has been turned to the sample; the camera has used its [`crate::sequence::Dimension::Film`].
+    #[inline]
     fn sample<S: Shape, L: Emitter, M: Material>(
         &self,
         scene: &Scene<'_, S, L, M>,
         ray: &Ray,
         reach: f32,
         sequence: &mut impl Sequence,
+    ) -> Rgb {
+        self.observe(scene, ray, reach, sequence, &mut ())
+    }
+
+    /// The same sample, while `observer` looks on.
+    fn observe<S: Shape, L: Emitter, M: Material>(
+        &self,
+        scene: &Scene<'_, S, L, M>,
+        ray: &Ray,
+        reach: f32,
+        sequence: &mut impl Sequence,
+        observer: &mut impl Observer,
     ) -> Rgb;
 }
 
@@ -48,16 +64,17 @@ pub enum AnyEstimator<'a> {
 
 impl Estimator for AnyEstimator<'_> {
     #[inline]
-    fn sample<S: Shape, L: Emitter, M: Material>(
+    fn observe<S: Shape, L: Emitter, M: Material>(
         &self,
         scene: &Scene<'_, S, L, M>,
         ray: &Ray,
         reach: f32,
         sequence: &mut impl Sequence,
+        observer: &mut impl Observer,
     ) -> Rgb {
         match self {
-            Self::Direct(e) => e.sample(scene, ray, reach, sequence),
-            Self::Occlusion(e) => e.sample(scene, ray, reach, sequence),
+            Self::Direct(e) => e.observe(scene, ray, reach, sequence, observer),
+            Self::Occlusion(e) => e.observe(scene, ray, reach, sequence, observer),
         }
     }
 }

@@ -1,7 +1,8 @@
 //! Ambient occlusion: how much of the hemisphere is open, weighted by the cosine.
 
-use super::Estimator;
+use super::{Estimator, Observer};
 use crate::Rgb;
+use crate::bsdf::Bsdf;
 use crate::geom::{Frame, Ray};
 use crate::light::Emitter;
 use crate::material::Material;
@@ -29,14 +30,18 @@ impl Default for Occlusion {
 
 impl Estimator for Occlusion {
     #[inline]
-    fn sample<S: Shape, L: Emitter, M: Material>(
+    fn observe<S: Shape, L: Emitter, M: Material>(
         &self,
         scene: &Scene<'_, S, L, M>,
         ray: &Ray,
         reach: f32,
         sequence: &mut impl Sequence,
+        observer: &mut impl Observer,
     ) -> Rgb {
         let Some(hit) = scene.closest_hit(ray, reach) else { return Rgb::WHITE };
+        let albedo = |m: &M| m.at(|| scene.uv(&hit)).albedo();
+        let material = scene.materials().get(hit.material as usize);
+        observer.surface(&hit, -ray.direction, || material.map_or(Rgb::BLACK, albedo));
         let front = hit.at.normal.dot(ray.direction) <= 0.0;
         let frame = Frame::from_normal(if front { hit.at.normal } else { -hit.at.normal });
         let draws = self.samples.max(1);
@@ -44,7 +49,9 @@ impl Estimator for Occlusion {
             .filter(|&draw| {
                 let u = sequence.point(Dimension::Occlusion, draw, draws);
                 let wi = frame.to_world(warp::cosine_hemisphere(u));
-                scene.visible(&hit.at, wi, self.reach)
+                let open = scene.visible(&hit.at, wi, self.reach);
+                observer.light(open, || 1.0);
+                open
             })
             .count();
         Rgb::splat(open as f32 / draws as f32)

@@ -1,0 +1,194 @@
+//! Gathering the light that arrives at one surface point.
+
+use super::direct::{Direct, Technique};
+use super::shading::Shading;
+use super::{Heuristic, Observer};
+use crate::Rgb;
+use crate::bsdf::Bsdf;
+use crate::choose::LightChoice;
+use crate::geom::{Ray, offset_origin};
+use crate::light::{Density, Emitter};
+use crate::material::Material;
+use crate::scene::Scene;
+use crate::sequence::{Dimension, Sequence};
+use crate::shape::Shape;
+use glam::Vec3;
+
+/// A surface point that is looked at, and how its light is estimated.
+pub(super) struct Gather<'g, S, L, M: Material> {
+    direct: &'g Direct<'g>,
+    scene: &'g Scene<'g, S, L, M>,
+    shading: &'g Shading<'g, M::Bsdf>,
+    plan: Plan,
+}
+
+/// What a technique comes down to at one shading point.
+#[derive(Clone, Copy)]
+struct Plan {
+    light: u32,
+    bsdf: u32,
+    heuristic: Heuristic,
+    control: bool,
+}
+
+impl Plan {
+    /// How many samples of each kind a point gets.
+    #[inline]
+    fn new(direct: &Direct<'_>, diffuse: bool, light_to_meet: bool) -> Self {
+        let Direct { technique, light_samples, bsdf_samples, .. } = *direct;
+        let (light, bsdf_samples, heuristic) = match technique {
+            Technique::Light => (light_samples, 0, Heuristic::Power),
+            Technique::Bsdf => (0, bsdf_samples, Heuristic::Power),
+            Technique::Mis(h) => (light_samples, bsdf_samples, h),
+            Technique::Auto(h) | Technique::Control(h) if diffuse => (light_samples.max(1), 0, h),
+            Technique::Auto(h) | Technique::Control(h) => (light_samples, bsdf_samples, h),
+        };
+        // Where no ray can meet a light, none is sent.
+        let bsdf = if light_to_meet { bsdf_samples } else { 0 };
+        let control = diffuse && matches!(technique, Technique::Control(_));
+        Self { light, bsdf, heuristic, control }
+    }
+}
+
+impl<'g, S: Shape, L: Emitter, M: Material> Gather<'g, S, L, M> {
+    #[inline]
+    pub(super) fn new(
+        direct: &'g Direct<'g>,
+        scene: &'g Scene<'g, S, L, M>,
+        shading: &'g Shading<'g, M::Bsdf>,
+    ) -> Self {
+        let plan = Plan::new(direct, shading.bsdf().is_diffuse(), scene.has_light_to_meet());
+        Self { direct, scene, shading, plan }
+    }
+
+    /// Light that the point reflects toward the viewer (W m⁻² sr⁻¹): one sample.
+    #[inline]
+    pub(super) fn reflected(&self, sequence: &mut impl Sequence, observer: &mut impl Observer) -> Rgb {
+        let mut sum = if self.plan.control { self.unshadowed() } else { Rgb::BLACK };
+        if self.plan.light > 0 || self.scene.has_delta_light() {
+            sum += self.over_lights(sequence, observer);
+        }
+        if self.plan.bsdf > 0 {
+            sum += self.over_hemisphere(sequence);
+        }
+        sum
+    }
+
+    /// What a diffuse point reflects when nothing is in the way: `f_r Σ E`, of the lights that have a
+    /// closed form.
+    #[inline]
+    fn unshadowed(&self) -> Rgb {
+        let from = &self.shading.receiver;
+        let irradiance = |light: &L| light.unshadowed_irradiance(from).unwrap_or(Rgb::BLACK);
+        self.shading.diffuse()
+            * self.scene.lights().iter().fold(Rgb::BLACK, |sum, light| sum + irradiance(light))
+    }
+
+    /// The light-sampling part: over every light, or over a chosen one for each sample.
+    #[inline]
+    fn over_lights(&self, sequence: &mut impl Sequence, observer: &mut impl Observer) -> Rgb {
+        let choice = &self.direct.choice;
+        let lights = self.scene.lights().len();
+        let draws = self.plan.light.max(1);
+        let mut sum = Rgb::BLACK;
+        let chooses = *choice != LightChoice::All;
+        for light in choice.not_chosen(lights) {
+            // The best dimension is for the chosen light, where one is chosen.
+            let dimension = Dimension::Light(light as u32 + u32::from(chooses));
+            for draw in 0..draws {
+                let u = sequence.point(dimension, draw, draws);
+                sum += self.toward(light, 1.0, u, observer);
+            }
+        }
+        if chooses {
+            for draw in 0..draws {
+                let u = sequence.choice(Dimension::Light(0), draw, draws);
+                let more = || sequence.choice(Dimension::Choice, draw, draws);
+                if let Some((light, pmf)) = choice.choose(&self.shading.receiver, lights, u, more) {
+                    let u = sequence.point(Dimension::Light(0), draw, draws);
+                    sum += self.toward(light, pmf, u, observer);
+                }
+            }
+        }
+        sum / draws as f32
+    }
+
+    /// One sample of the light with that index, chosen with probability `pmf`.
+    #[inline]
+    fn toward(&self, index: usize, pmf: f32, u: [f32; 2], observer: &mut impl Observer) -> Rgb {
+        let Self { direct, scene, shading, plan } = self;
+        let light = &scene.lights()[index];
+        if plan.light == 0 && !light.is_delta() {
+            return Rgb::BLACK;
+        }
+        let Some(sample) = light.sample(&shading.receiver, direct.surface, u) else { return Rgb::BLACK };
+        if sample.incident.is_black() {
+            return Rgb::BLACK;
+        }
+        let Some(reflected) = shading.reflect(sample.wi) else { return Rgb::BLACK };
+        let weight = match sample.density {
+            Density::Delta => 1.0 / pmf,
+            Density::SolidAngle(pdf) if plan.bsdf == 0 => 1.0 / (pdf * pmf),
+            Density::SolidAngle(pdf) => {
+                let this = plan.light as f32 * pdf * pmf;
+                let other = plan.bsdf as f32 * shading.pdf_solid_angle(&reflected);
+                plan.heuristic.weight(this, other) / (pdf * pmf)
+            }
+        };
+        let arrives = shading.is_outside(sample.wi)
+            && scene.light_visible(&shading.at.at, sample.wi, sample.distance, index);
+        observer.light(arrives, || {
+            let pdf = if let Density::SolidAngle(pdf) = sample.density { pdf } else { 1.0 };
+            (reflected.f_cos * sample.incident * (1.0 / (pdf * pmf))).average()
+        });
+        let answered = plan.control && light.unshadowed_irradiance(&shading.receiver).is_some();
+        match (arrives, answered) {
+            (true, false) => reflected.f_cos * sample.incident * weight,
+            (false, true) => reflected.f_cos * sample.incident * -weight,
+            _ => Rgb::BLACK,
+        }
+    }
+
+    /// The BSDF-sampling part: directions over the hemisphere, and the light that they meet.
+    #[inline]
+    fn over_hemisphere(&self, sequence: &mut impl Sequence) -> Rgb {
+        let (shading, draws) = (self.shading, self.plan.bsdf);
+        let mut sum = Rgb::BLACK;
+        for draw in 0..draws {
+            let u = sequence.point(Dimension::Bsdf, draw, draws);
+            let lobe = sequence.choice(Dimension::Bsdf, draw, draws);
+            let Some((wi, pdf)) = shading.sample(u, lobe) else { continue };
+            let Some(reflected) = shading.reflect(wi).filter(|_| shading.is_outside(wi)) else { continue };
+            sum += reflected.f_cos * self.met(wi, pdf) / pdf;
+        }
+        sum / draws as f32
+    }
+
+    /// The radiance that arrives along `wi`, drawn by the BSDF with density `pdf`, weighted against
+    /// the light samples that draw it too.
+    #[inline]
+    fn met(&self, wi: Vec3, pdf: f32) -> Rgb {
+        let Self { direct, scene, shading, plan } = self;
+        let (from, lights) = (&shading.receiver, scene.lights().len());
+        let weighted = |incident: Rgb, index: usize, pdf_light: f32| {
+            let other = plan.light as f32 * pdf_light * direct.choice.pmf(from, lights, index);
+            incident * plan.heuristic.weight(plan.bsdf as f32 * pdf, other)
+        };
+        let at = &shading.at.at;
+        let ray = Ray::new(offset_origin(at.point, at.error, at.normal, wi), wi);
+        match scene.closest_hit(&ray, f32::INFINITY) {
+            Some(hit) => scene.lights().get(hit.light as usize).map_or(Rgb::BLACK, |light| {
+                let incident = light.radiance(&hit.at, -wi);
+                if plan.light == 0 || incident.is_black() {
+                    return incident;
+                }
+                let pdf_light = light.pdf_solid_angle(from, direct.surface, wi, &hit.at);
+                weighted(incident, hit.light as usize, pdf_light)
+            }),
+            None if plan.light == 0 => scene.radiance_escaping(wi),
+            None => scene.environments().fold(Rgb::BLACK, |sum, (index, light)| {
+                sum + weighted(light.radiance_escaping(wi), index, light.pdf_escaping(from, wi))
+            }),
+        }
+    }
+}
