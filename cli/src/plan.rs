@@ -6,7 +6,7 @@ use halflight::build::{BoundScene, Description, IntegratorDescription, SceneBuff
 use halflight::choose::LightChoice;
 use halflight::estimate::{AnyEstimator, Direct, Heuristic as Weights, Occlusion, Technique as Combine};
 use halflight::light::{AnyLight, Emitter, EnvironmentDensity, SurfaceDensity};
-use halflight::sequence::{AnySequence, Random, Sobol};
+use halflight::sequence::{AnySequence, Random, Sobol, ZSobol};
 use std::fmt;
 
 /// With `auto`, up to so many lights are all sampled at each point; of more, one is chosen by a tree.
@@ -23,6 +23,14 @@ pub(crate) enum Choice {
     Tree,
 }
 
+/// Where the uniforms come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Points {
+    Random,
+    Sobol,
+    ZSobol,
+}
+
 /// Every choice made.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Plan {
@@ -35,10 +43,10 @@ pub(crate) enum Plan {
         choice: Choice,
         /// Of the environment map that there is.
         environment: Option<EnvironmentDensity>,
-        sobol: bool,
+        points: Points,
     },
     /// Ambient occlusion.
-    Occlusion { reach: f32, sobol: bool },
+    Occlusion { reach: f32, points: Points },
 }
 
 /// Refuses choices that contradict each other.
@@ -89,9 +97,13 @@ pub(crate) fn make(
     description: &Description,
     bound: &BoundScene<'_>,
 ) -> Result<Plan, Failure> {
-    let sobol = choices.sequence != Sequence::Random;
+    let points = match choices.sequence {
+        Sequence::Random => Points::Random,
+        Sequence::Sobol | Sequence::Auto => Points::Sobol,
+        Sequence::Zsobol => Points::ZSobol,
+    };
     if choices.technique == Technique::Occlusion {
-        return Ok(Plan::Occlusion { reach: choices.occlusion_distance.unwrap_or(f32::INFINITY), sobol });
+        return Ok(Plan::Occlusion { reach: choices.occlusion_distance.unwrap_or(f32::INFINITY), points });
     }
     let lights = bound.scene().lights();
     check_lights(description, lights)?;
@@ -109,7 +121,7 @@ pub(crate) fn make(
         surface,
         choice: choice(choices.choose, lights.len()),
         environment: description.environments.first().map(|e| e.density.resolved()),
-        sobol,
+        points,
     })
 }
 
@@ -191,17 +203,21 @@ impl Plan {
         matches!(self, Self::Direct { choice: Choice::All, .. })
     }
 
-    /// The sequence.
-    pub(crate) fn sequence(&self, seed: u32) -> AnySequence {
-        let (Self::Direct { sobol, .. } | Self::Occlusion { sobol, .. }) = *self;
-        if sobol { AnySequence::Sobol(Sobol::new(seed)) } else { AnySequence::Random(Random::new(seed)) }
+    /// The sequence for a film of `width` columns whose pixels take `samples` each.
+    pub(crate) fn sequence(&self, seed: u32, width: u32, samples: u32) -> AnySequence {
+        let (Self::Direct { points, .. } | Self::Occlusion { points, .. }) = *self;
+        match points {
+            Points::Random => AnySequence::Random(Random::new(seed)),
+            Points::Sobol => AnySequence::Sobol(Sobol::new(seed)),
+            Points::ZSobol => AnySequence::ZSobol(ZSobol::new(seed, width, samples)),
+        }
     }
 
     /// Its choices by the names of the flags.
     pub(crate) fn flags(&self) -> Vec<(&'static str, String)> {
-        let sequence = |sobol| ("sequence", if sobol { "sobol" } else { "random" }.to_owned());
+        let sequence = |points| ("sequence", points_flag(points).to_owned());
         match *self {
-            Self::Direct { technique, light_samples, bsdf_samples, surface, choice, environment, sobol } => {
+            Self::Direct { technique, light_samples, bsdf_samples, surface, choice, environment, points } => {
                 let (technique, heuristic) = technique_flags(technique);
                 let mut flags = vec![("technique", technique.to_owned())];
                 flags.extend(heuristic.map(|h| ("heuristic", h.to_owned())));
@@ -210,13 +226,13 @@ impl Plan {
                 flags.push(("lights", surface_flag(surface).to_owned()));
                 flags.push(("choose", choice.to_string()));
                 flags.extend(environment.map(|e| ("environment", environment_flag(e).to_owned())));
-                flags.push(sequence(sobol));
+                flags.push(sequence(points));
                 flags
             }
-            Self::Occlusion { reach, sobol } => vec![
+            Self::Occlusion { reach, points } => vec![
                 ("technique", "occlusion".to_owned()),
                 ("occlusion-distance", reach.to_string()),
-                sequence(sobol),
+                sequence(points),
             ],
         }
     }
@@ -259,6 +275,15 @@ const fn environment_flag(density: EnvironmentDensity) -> &'static str {
         EnvironmentDensity::Luminance => "luminance",
         EnvironmentDensity::Compensated => "compensated",
         EnvironmentDensity::Product => "product",
+    }
+}
+
+/// As it is typed.
+const fn points_flag(points: Points) -> &'static str {
+    match points {
+        Points::Random => "random",
+        Points::Sobol => "sobol",
+        Points::ZSobol => "zsobol",
     }
 }
 

@@ -209,8 +209,10 @@ pub(crate) enum Sequence {
     Auto,
     /// Independent random numbers
     Random,
-    /// Owen-scrambled Sobol points
+    /// Owen-scrambled Sobol points, for each pixel alone
     Sobol,
+    /// The same, shared by neighbouring pixels: an error that looks finer
+    Zsobol,
 }
 
 impl Default for RenderArgs {

@@ -192,7 +192,7 @@ fn render(args: &RenderArgs, prepared: &Prepared) -> Result<Rendered, Failure> {
         camera: *camera,
         film: *film,
         estimator: plan.estimator(buffers),
-        sequence: plan.sequence(args.seed),
+        sequence: plan.sequence(args.seed, film.width(), *samples),
     };
     let stop = on_interrupt()?;
     let bar = RenderBar::new(film.crop().area() as u64, *samples, args.quiet);

@@ -1,15 +1,38 @@
 //! Where the uniforms come from.
 //!
-//! A sample of a pixel asks for uniforms by *dimension* (what they decide) and *index* (which of
-//! the draws for that decision this is). Each pixel gets its own scramble, so that nothing is
-//! correlated between pixels; within a dimension the points of all samples of a pixel form one
-//! sequence, so that any power of two of them is well spread.
+//! A sample of a pixel asks for uniforms by *dimension* (what they decide) and *draw* (which of
+//! the draws for that decision this is). Within a dimension the points of all samples of a pixel form
+//! one sequence, so that any power of two of them is well spread.
+//!
+//! # How dimensions are padded
+//!
+//! A Sobol sequence is best in its first coordinates, and a sample makes more decisions than those
+//! decide. So each decision has the first coordinates of a scramble of its own, shuffled so that
+//! the points of two decisions meet at random:
+//!
+//! | decision | coordinates | of the scramble of |
+//! |---|---|---|
+//! | the only light point, or the only direction for occlusion | 0, 1 | `Film` |
+//! | place in the pixel | 2, 3 | `Film` |
+//! | point of any other light, one of several draws, BSDF direction | 0, 1 | that dimension |
+//! | which light, which lobe | 2 | the dimension of the point that it goes with |
+//!
+//! What goes together in one integral over few variables is one point: a penumbra seen through a
+//! pixel, or a light chosen and its point.
+//!
+//! # How pixels relate
+//!
+//! [`Random`] and [`Sobol`] give each pixel a seed of its own: nothing is correlated between
+//! pixels. [`ZSobol`] deals one sequence out to neighbouring pixels, so that their errors are opposed.
 
+mod points;
 mod random;
 mod sobol;
+mod zsobol;
 
 pub use random::Random;
 pub use sobol::Sobol;
+pub use zsobol::ZSobol;
 
 /// What a draw decides. Each decision has its own, independently scrambled points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -59,13 +82,15 @@ pub trait Sequence {
     fn choice(&mut self, dimension: Dimension, draw: u32, draws: u32) -> f32;
 }
 
-/// Either sequence, chosen at run time.
+/// Any of the sequences, chosen at run time.
 #[derive(Debug, Clone)]
 pub enum AnySequence {
     /// Independent points.
     Random(Random),
-    /// Owen-scrambled Sobol points.
+    /// Owen-scrambled Sobol points, for each pixel alone.
     Sobol(Sobol),
+    /// Owen-scrambled Sobol points that neighbouring pixels share.
+    ZSobol(ZSobol),
 }
 
 impl Sequence for AnySequence {
@@ -74,6 +99,7 @@ impl Sequence for AnySequence {
         match self {
             Self::Random(s) => s.start(pixel, sample),
             Self::Sobol(s) => s.start(pixel, sample),
+            Self::ZSobol(s) => s.start(pixel, sample),
         }
     }
 
@@ -82,6 +108,7 @@ impl Sequence for AnySequence {
         match self {
             Self::Random(s) => s.point(dimension, draw, draws),
             Self::Sobol(s) => s.point(dimension, draw, draws),
+            Self::ZSobol(s) => s.point(dimension, draw, draws),
         }
     }
 
@@ -90,6 +117,7 @@ impl Sequence for AnySequence {
         match self {
             Self::Random(s) => s.choice(dimension, draw, draws),
             Self::Sobol(s) => s.choice(dimension, draw, draws),
+            Self::ZSobol(s) => s.choice(dimension, draw, draws),
         }
     }
 }

@@ -1,11 +1,8 @@
 //! Owen-scrambled Sobol points.
 
+use super::points::{coordinate, point};
 use super::{Dimension, Sequence};
 use crate::num;
-use sobol_burley::{sample, sample_4d};
-
-/// Points per scramble; beyond it a new, independent scramble begins.
-const BLOCK: u32 = 1 << 16;
 
 /// Owen-scrambled Sobol points.
 ///
@@ -16,7 +13,7 @@ const BLOCK: u32 = 1 << 16;
 /// projection is the best: it is where the penumbra is decided. Further decisions reuse the best dimensions
 /// under scrambles of their own (padding).
 ///
-/// Source: Burley 2020, *Practical Hash-based Owen Scrambling*, JCGT 9(4); crate `sobol_burley`.
+/// Source: Burley 2020, *Practical Hash-based Owen Scrambling*, JCGT 9(4), section 4.
 #[derive(Debug, Clone)]
 pub struct Sobol {
     seed: u32,
@@ -33,12 +30,23 @@ impl Sobol {
         Self { seed, pixel_seed: 0, sample: 0, first: [0.0; 4] }
     }
 
-    /// Index within a scramble, and the scramble's seed.
+    /// Index within a scramble, and the scramble's seed. A scramble holds 2³² points.
     #[inline]
     fn place(&self, dimension: Dimension, draw: u32, draws: u32) -> (u32, u32) {
         let index = u64::from(self.sample) * u64::from(draws) + u64::from(draw);
-        let block = (index / u64::from(BLOCK)) as u32;
-        (index as u32 % BLOCK, num::hash2(self.pixel_seed, dimension.key() ^ block.rotate_left(16)))
+        let scramble = num::hash((index >> 32) as u32);
+        (index as u32, num::hash2(self.pixel_seed, dimension.key() ^ scramble))
+    }
+}
+
+/// The half of a sample's first point that decides `dimension`, if one does.
+#[inline]
+pub(super) fn of_first(first: [f32; 4], dimension: Dimension, draws: u32) -> Option<[f32; 2]> {
+    let [x, y, z, w] = first;
+    match dimension {
+        Dimension::Film => Some([z, w]),
+        Dimension::Light(0) | Dimension::Occlusion if draws == 1 => Some([x, y]),
+        _ => None,
     }
 }
 
@@ -48,27 +56,22 @@ impl Sequence for Sobol {
         self.pixel_seed = num::hash2(pixel, self.seed);
         self.sample = sample;
         let (index, seed) = self.place(Dimension::Film, 0, 1);
-        self.first = sample_4d(index, 0, seed);
+        self.first = point(index, seed);
     }
 
     #[inline]
     fn point(&mut self, dimension: Dimension, draw: u32, draws: u32) -> [f32; 2] {
-        let [x, y, z, w] = self.first;
-        match dimension {
-            Dimension::Film => [z, w],
-            Dimension::Light(0) | Dimension::Occlusion if draws == 1 => [x, y],
-            _ => {
-                let (index, seed) = self.place(dimension, draw, draws);
-                let [x, y, _, _] = sample_4d(index, 0, seed);
-                [x, y]
-            }
-        }
+        of_first(self.first, dimension, draws).unwrap_or_else(|| {
+            let (index, seed) = self.place(dimension, draw, draws);
+            let [x, y, _, _] = point(index, seed);
+            [x, y]
+        })
     }
 
     #[inline]
     fn choice(&mut self, dimension: Dimension, draw: u32, draws: u32) -> f32 {
         let (index, seed) = self.place(dimension, draw, draws);
-        sample(index, 2, seed)
+        coordinate(index, 2, seed)
     }
 }
 
@@ -121,13 +124,30 @@ mod tests {
     }
 
     #[test]
-    fn more_samples_than_a_scramble_holds_stay_uniform() {
+    fn many_samples_go_on_filling_the_gaps() {
+        // 2^18 points have one in each of as many cells: nothing begins anew at 2^16.
         let mut s = Sobol::new(0);
-        let mut sum = 0.0;
-        for i in 65_536..66_560 {
+        let mut cells = std::vec![0_u8; 1 << 18];
+        for i in 0..1 << 18 {
             s.start(0, i);
-            sum += f64::from(s.point(Dimension::Film, 0, 1)[0]);
+            let [x, y] = s.point(Dimension::Light(2), 0, 1);
+            cells[(x * 512.0) as usize * 512 + (y * 512.0) as usize] += 1;
         }
-        assert!((sum / 1024.0 - 0.5).abs() < 1e-3);
+        assert!(cells.iter().all(|&n| n == 1));
+    }
+
+    #[test]
+    fn more_draws_than_a_scramble_holds_begin_another() {
+        let mut s = Sobol::new(0);
+        let (mut sum, mut same) = (0.0, 0);
+        for draw in 0..1024 {
+            s.start(0, u32::MAX);
+            let [x, _] = s.point(Dimension::Bsdf, draw, 1 << 16);
+            sum += f64::from(x);
+            // The sample with the same index in the first scramble.
+            s.start(0, u32::MAX & 0xffff);
+            same += u32::from(s.point(Dimension::Bsdf, draw, 1 << 16)[0] == x);
+        }
+        assert!((sum / 1024.0 - 0.5).abs() < 1e-3 && same < 4, "{sum} {same}");
     }
 }
