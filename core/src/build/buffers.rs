@@ -35,8 +35,8 @@ pub struct SceneBuffers {
     pub(super) materials: Vec<AnyMaterial<'static>>,
     /// Those that have textures, each with its index.
     pub(super) textured: Vec<(usize, Material)>,
-    power: Vec<f32>,
-    light_tree: LightTreeBuffers,
+    pub(super) power: Vec<f32>,
+    pub(super) light_tree: LightTreeBuffers,
     degenerate: usize,
     stack: usize,
 }
@@ -110,7 +110,7 @@ impl SceneBuffers {
 
     /// Lists the lights in the order of the description, but for those around the scene, which come
     /// last; the light that each primitive is, or [`NONE`].
-    fn list_lights(
+    pub(super) fn list_lights(
         &mut self,
         description: &Description,
         primitives: &[Primitive],
@@ -184,7 +184,7 @@ impl SceneBuffers {
 
     /// Fills the table of cumulative powers, which stays empty where there is no power, and builds the
     /// tree of lights.
-    fn prepare_choices(&mut self, scene_radius: f32) -> Result<(), BuildError> {
+    pub(super) fn prepare_choices(&mut self, scene_radius: f32) -> Result<(), BuildError> {
         let bound = BoundScene::new(self)?;
         let lights = bound.scene().lights();
         let stack = bound.scene().bvh().stack_needed();

@@ -8,6 +8,7 @@ mod error;
 mod light_tree;
 mod painted;
 mod primitives;
+mod relight;
 mod sky;
 mod texture;
 mod tree;

@@ -17,9 +17,17 @@ pub(super) struct Primitive {
 
 /// Lists all primitives; triangles without area are left out and counted.
 pub(super) fn list(description: &Description) -> Result<(Vec<Primitive>, usize), BuildError> {
-    let mut primitives = Vec::with_capacity(description.triangle_count() + description.objects.len());
+    list_where(description, |_| true)
+}
+
+/// Lists the primitives of the objects that `wanted` accepts, as [`list`] does.
+pub(super) fn list_where(
+    description: &Description,
+    wanted: impl Fn(&Object) -> bool,
+) -> Result<(Vec<Primitive>, usize), BuildError> {
+    let mut primitives = Vec::new();
     let mut degenerate = 0;
-    for (index, object) in description.objects.iter().enumerate() {
+    for (index, object) in description.objects.iter().enumerate().filter(|(_, object)| wanted(object)) {
         if object.material >= description.materials.len() {
             return Err(BuildError::NoMaterial { object: object.name.clone(), material: object.material });
         }

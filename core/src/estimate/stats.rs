@@ -59,6 +59,23 @@ impl PixelStats {
     pub const fn rejected(&self) -> u32 {
         self.rejected
     }
+
+    /// Every bit of it, for keeping it elsewhere: the mean and the sum of squared deviations per
+    /// channel, the samples, and those rejected.
+    #[must_use]
+    pub const fn to_words(&self) -> [u32; 8] {
+        let (m, s) = (self.mean, self.squares);
+        let word = f32::to_bits;
+        [word(m.r), word(m.g), word(m.b), word(s.r), word(s.g), word(s.b), self.count, self.rejected]
+    }
+
+    /// What [`PixelStats::to_words`] was made from.
+    #[must_use]
+    pub const fn from_words([r, g, b, rr, gg, bb, count, rejected]: [u32; 8]) -> Self {
+        let float = f32::from_bits;
+        let mean = Rgb::new(float(r), float(g), float(b));
+        Self { mean, squares: Rgb::new(float(rr), float(gg), float(bb)), count, rejected }
+    }
 }
 
 #[cfg(test)]
@@ -93,6 +110,16 @@ mod tests {
             p.add(Rgb::new(1.0, bad, 1.0));
         }
         assert_eq!((p.mean(), p.count(), p.rejected()), (Rgb::splat(2.0), 1, 3));
+    }
+
+    #[test]
+    fn words_keep_every_bit() {
+        let mut p = PixelStats::NEW;
+        for i in 0..9_u8 {
+            p.add(Rgb::new(0.1, -0.2, 1e-30) * f32::from(i));
+        }
+        p.add(Rgb::splat(f32::NAN));
+        assert_eq!(PixelStats::from_words(p.to_words()), p);
     }
 
     #[test]
