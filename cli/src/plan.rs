@@ -2,17 +2,14 @@
 
 use crate::args::{Choices, Choose, Environment, Heuristic, Lights, Portals, Sequence, Technique};
 use crate::failure::Failure;
-use halflight::build::{BoundScene, Description, IntegratorDescription, SceneBuffers};
+use halflight::build::{
+    BoundScene, Description, FEW_LIGHTS, IntegratorDescription, SceneBuffers, required_environment,
+};
 use halflight::choose::LightChoice;
 use halflight::estimate::{AnyEstimator, Direct, Heuristic as Weights, Occlusion, Technique as Combine};
 use halflight::light::{AnyLight, Emitter, EnvironmentDensity, SurfaceDensity};
 use halflight::sequence::{AnySequence, Random, Sobol, ZSobol};
 use std::fmt;
-
-/// With `auto`, up to so many lights are all sampled at each point; of more, one is chosen by a tree.
-/// With the first 4, 8 and 16 lights of the peers' scene `many`, relMSE times seconds of all, over that of
-/// the tree, were 1.4, 0.24 and 1.4.
-const FEW_LIGHTS: usize = 8;
 
 /// Which light a sample goes to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -125,12 +122,8 @@ pub(crate) fn make(
     })
 }
 
-/// Which densities are combined. An author who wants no samples of a kind means the other technique.
-///
-/// Under an environment map that may hold a sun `auto` combines both everywhere: in the sun's shadow
-/// most samples by luminance are wasted. On the peers' `env` that is a third of relMSE.
+/// Which densities are combined.
 fn technique(choices: &Choices, description: &Description) -> Combine {
-    let IntegratorDescription { light_samples, bsdf_samples } = description.integrator;
     let weights = match choices.heuristic {
         Some(Heuristic::Balance) => Weights::Balance,
         Some(Heuristic::Power) => Weights::Power,
@@ -141,17 +134,15 @@ fn technique(choices: &Choices, description: &Description) -> Combine {
         Technique::Bsdf => Combine::Bsdf,
         Technique::Mis => Combine::Mis(weights),
         Technique::Control => Combine::Control(weights),
-        _ if light_samples == Some(0) && choices.light_samples.is_none() => Combine::Bsdf,
-        _ if bsdf_samples == Some(0) && choices.bsdf_samples.is_none() => Combine::Light,
-        _ if hides_a_sun(description) => Combine::Mis(weights),
-        _ => Combine::Auto(weights),
+        Technique::Auto | Technique::Occlusion => {
+            let IntegratorDescription { light_samples, bsdf_samples } = description.integrator;
+            let integrator = IntegratorDescription {
+                light_samples: choices.light_samples.or(light_samples),
+                bsdf_samples: choices.bsdf_samples.or(bsdf_samples),
+            };
+            description.required_technique(integrator, weights)
+        }
     }
-}
-
-/// True with an environment map whose sun, if it has one, is not a light of its own.
-fn hides_a_sun(description: &Description) -> bool {
-    let sun = description.lights.iter().any(|light| matches!(light, AnyLight::DistantDisk(_)));
-    !description.environments.is_empty() && !sun
 }
 
 /// Which light a sample goes to.
@@ -288,16 +279,9 @@ const fn points_flag(points: Points) -> &'static str {
 }
 
 /// Chooses how directions toward the scene's environment maps are drawn, before its tables are built.
-///
-/// `auto` leaves to BSDF samples, where there are some, what they find: on the peers' `env` relMSE at
-/// 64 samples is 2.0e-4 so, 2.4e-4 with the product and 3.0e-4 by luminance. Without them the product
-/// is best.
 pub(crate) fn choose_environment(choices: &Choices, description: &mut Description) {
     let density = match choices.environment {
-        Environment::Auto => match technique(choices, description) {
-            Combine::Mis(_) => EnvironmentDensity::Compensated,
-            _ => EnvironmentDensity::Product,
-        },
+        Environment::Auto => required_environment(technique(choices, description)),
         Environment::Cosine => EnvironmentDensity::Cosine,
         Environment::Luminance => EnvironmentDensity::Luminance,
         Environment::Compensated => EnvironmentDensity::Compensated,

@@ -1,5 +1,6 @@
 //! From an owned description of a scene to the borrowed scene that the kernel renders (std).
 
+mod auto;
 mod bound;
 mod buffers;
 mod description;
@@ -13,6 +14,7 @@ mod sky;
 mod texture;
 mod tree;
 
+pub use auto::{FEW_LIGHTS, required_environment};
 pub use bound::BoundScene;
 pub use buffers::{SceneBuffers, SceneStats};
 pub use description::{

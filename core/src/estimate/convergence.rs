@@ -40,6 +40,18 @@ impl DifferenceSums {
         self.values += other.values;
     }
 
+    /// The sum and how many values are in it, for sending them elsewhere.
+    #[must_use]
+    pub const fn to_parts(self) -> (f64, u64) {
+        (self.sum, self.values)
+    }
+
+    /// What [`DifferenceSums::to_parts`] was made from.
+    #[must_use]
+    pub const fn from_parts((sum, values): (f64, u64)) -> Self {
+        Self { sum, values }
+    }
+
     /// Mean over the values; `None` without any.
     fn mean(&self) -> Option<f64> {
         (self.values > 0).then(|| self.sum / self.values as f64)

@@ -1,5 +1,6 @@
 //! Estimators: what a camera ray brings back, and how well that is known.
 
+mod arrival;
 mod convergence;
 mod direct;
 mod gather;
@@ -10,6 +11,7 @@ mod occlusion;
 mod shading;
 mod stats;
 
+pub use arrival::{Arrival, LightRay};
 pub use convergence::{Convergence, DifferenceSums};
 pub use direct::{Direct, Technique};
 pub use heuristic::Heuristic;

@@ -30,15 +30,14 @@ impl<'s, B: Bsdf> Shading<'s, B> {
     pub(super) fn new(at: &'s Interaction, bsdf: B, wo: Vec3, tangent: impl FnOnce() -> Vec3) -> Self {
         let front = at.at.normal.dot(wo) >= 0.0;
         let side = if front { at.at.normal } else { -at.at.normal };
-        // An interpolated normal that turns away from the viewer has nothing to say there.
-        let agrees = (at.shading_normal.dot(wo) >= 0.0) == front;
-        let normal = if agrees { at.shading_normal } else { at.at.normal };
+        let receiver = at.receiver(wo);
+        // On the side that the surface calls its front.
+        let normal = if front { receiver.normal } else { -receiver.normal };
         let frame = if bsdf.needs_tangent() {
             Frame::from_normal_and_tangent(normal, tangent())
         } else {
             Frame::from_normal(normal)
         };
-        let receiver = Receiver { point: at.at.point, normal: if front { normal } else { -normal } };
         Self { at, receiver, bsdf, frame, wo: frame.to_local(wo), side }
     }
 

@@ -10,7 +10,7 @@ pub use tables::{CornerNormals, CornerUvs, NONE, SceneError, Surface, Tables};
 use crate::Rgb;
 use crate::bvh::Bvh;
 use crate::geom::{PreparedRay, Ray, offset_origin};
-use crate::light::{AnyLight, Emitter};
+use crate::light::{AnyLight, Emitter, Receiver};
 use crate::material::{AnyMaterial, Material};
 use crate::shape::{AnyShape, Shape, ShapeHit, SurfacePoint};
 use glam::{Vec2, Vec3};
@@ -58,6 +58,19 @@ pub struct Interaction {
     pub surface: u32,
     /// Where on it, in the coordinates of [`ShapeHit`].
     pub place: Vec2,
+}
+
+impl Interaction {
+    /// Where a viewer in the unit direction `wo` sees light gathered: the shading normal on the side that
+    /// is looked at, or the geometric one where the shading normal turns away from the viewer.
+    #[inline]
+    #[must_use]
+    pub fn receiver(&self, wo: Vec3) -> Receiver {
+        let front = self.at.normal.dot(wo) >= 0.0;
+        let agrees = (self.shading_normal.dot(wo) >= 0.0) == front;
+        let normal = if agrees { self.shading_normal } else { self.at.normal };
+        Receiver { point: self.at.point, normal: if front { normal } else { -normal } }
+    }
 }
 
 impl<'a, S: Shape, L: Emitter, M: Material> Scene<'a, S, L, M> {

@@ -1,0 +1,436 @@
+//! A scene that lives in a page: shown, changed, rendered.
+
+use crate::camera::{look, zoomed};
+use crate::choices::Choices;
+use crate::light::{Light, Made, Wanted};
+use crate::{Probe, View, probe, render};
+use halflight::Film;
+use halflight::Rgb;
+use halflight::build::{Description, Emission, Geometry, Material, Object, SceneBuffers, Sky};
+use halflight::bsdf::{AnyBsdf, Lambert, TwoSided};
+use halflight::estimate::{Convergence, DifferenceSums};
+use halflight::film::PixelRect;
+use halflight::glam::Vec3;
+use halflight::load::builtin::{BUILTIN, builtin};
+use std::error::Error;
+use wasm_bindgen::prelude::*;
+
+type Res<T> = Result<T, Box<dyn Error>>;
+
+/// For JavaScript.
+fn thrown(error: Box<dyn Error>) -> JsError {
+    JsError::new(&error.to_string())
+}
+
+/// A built-in scene.
+#[wasm_bindgen(getter_with_clone)]
+#[derive(Debug, Clone)]
+pub struct BuiltinScene {
+    /// What it is asked for by.
+    pub name: String,
+    /// What it shows, in one line.
+    pub about: String,
+}
+
+/// What a scene holds.
+#[wasm_bindgen(getter_with_clone)]
+#[derive(Debug, Clone)]
+pub struct Facts {
+    /// Its name.
+    pub name: String,
+    /// Columns of its author's picture.
+    pub width: u32,
+    /// Rows of its author's picture.
+    pub height: u32,
+    /// Triangles.
+    pub triangles: u32,
+    /// Rectangles, disks, spheres and cylinders.
+    pub analytic: u32,
+    /// Lights, counting each emitting triangle.
+    pub lights: u32,
+    /// Environment maps among them.
+    pub environments: u32,
+    /// Bytes of all tables.
+    pub bytes: u32,
+    /// Radius of a sphere that holds it (m).
+    pub radius: f32,
+    /// What was read, but not as written.
+    pub warnings: Vec<String>,
+}
+
+/// Where a light is kept.
+#[derive(Debug, Clone, Copy)]
+enum Place {
+    Object(usize),
+    Free(usize),
+}
+
+/// A scene with its camera, its lights, and how it is to be sampled.
+#[wasm_bindgen]
+#[derive(Debug)]
+pub struct Scene {
+    description: Description,
+    buffers: SceneBuffers,
+    places: Vec<Place>,
+    choices: Choices,
+    warnings: Vec<String>,
+    /// False when the tree has the form of lights that were elsewhere.
+    settled: bool,
+}
+
+#[wasm_bindgen]
+impl Scene {
+    /// The built-in scenes; the first is the one to begin with.
+    #[must_use]
+    pub fn builtins() -> Vec<BuiltinScene> {
+        let scene = |b: &halflight::load::builtin::Builtin| BuiltinScene {
+            name: b.name.to_owned(),
+            about: b.about.to_owned(),
+        };
+        BUILTIN.iter().map(scene).collect()
+    }
+
+    /// A built-in scene.
+    ///
+    /// # Errors
+    /// When there is none of that name.
+    pub fn builtin(name: &str) -> Result<Scene, JsError> {
+        let description = builtin(name).ok_or_else(|| JsError::new(&format!("there is no scene {name}")))?;
+        Self::new(description, Vec::new()).map_err(thrown)
+    }
+
+    /// Puts a clear sky with its sun around the scene.
+    ///
+    /// * `elevation`, `azimuth` – of the sun (degrees); `turbidity` – from 2, clear, to 10, hazy
+    ///
+    /// # Errors
+    /// When the sun is not in the sky.
+    pub fn surround(&mut self, elevation: f64, azimuth: f64, turbidity: f64) -> Result<(), JsError> {
+        self.put_sky(elevation, azimuth, turbidity).map_err(thrown)
+    }
+
+    /// What it holds.
+    #[must_use]
+    pub fn facts(&self) -> Facts {
+        let stats = self.buffers.stats();
+        let bound = self.buffers.bind();
+        let bounds = bound.scene().bvh().bounds();
+        Facts {
+            name: self.description.name.clone(),
+            width: self.description.width,
+            height: self.description.height,
+            triangles: stats.triangles as u32,
+            analytic: stats.analytic as u32,
+            lights: stats.lights as u32,
+            environments: self.description.environments.len() as u32,
+            bytes: stats.bytes as u32,
+            radius: 0.5 * bounds.diagonal(),
+            warnings: self.warnings.clone(),
+        }
+    }
+
+    /// Sets the size of the picture (pixels).
+    ///
+    /// # Errors
+    /// When a film cannot have it.
+    pub fn resize(&mut self, width: u32, height: u32) -> Result<(), JsError> {
+        Film::new(width, height, self.description.filter)?;
+        (self.description.width, self.description.height) = (width, height);
+        Ok(())
+    }
+
+    /// Where it is looked at from.
+    #[must_use]
+    pub fn view(&self) -> View {
+        View::new(&self.description.camera, self.description.width, self.description.height)
+    }
+
+    /// Looks from `origin` toward `target` (m each), with `up` roughly upward.
+    ///
+    /// * `half_width` – of the picture at distance 1, or of the window (m) of parallel rays
+    ///
+    /// # Errors
+    /// When that is no direction.
+    pub fn look(
+        &mut self,
+        origin: &[f32],
+        target: &[f32],
+        up: &[f32],
+        half_width: f32,
+    ) -> Result<(), JsError> {
+        let camera = look(&self.description.camera, vec3(origin)?, vec3(target)?, vec3(up)?)?;
+        self.description.camera = zoomed(&camera, half_width);
+        Ok(())
+    }
+
+    /// Its lights, but for environment maps.
+    #[must_use]
+    pub fn lights(&self) -> Vec<Light> {
+        self.places.iter().filter_map(|place| self.light(*place)).collect()
+    }
+
+    /// Changes the light with an index of [`Scene::lights`]; the indices stay.
+    ///
+    /// * `kind` – `rectangle`, `disk`, `sphere`, `cylinder`, `point`, `directional` or `constant`
+    /// * `position`, `direction` (m, any length), `size` (m), `strength` – as [`Light`] has them
+    ///
+    /// # Errors
+    /// When there is no such light, or it cannot be.
+    pub fn set_light(
+        &mut self,
+        index: usize,
+        kind: &str,
+        position: &[f32],
+        direction: &[f32],
+        size: &[f32],
+        strength: &[f32],
+    ) -> Result<(), JsError> {
+        let &[width, height] = size else { return Err(JsError::new("the size has two numbers")) };
+        let wanted = Wanted {
+            kind,
+            position: vec3(position)?,
+            direction: vec3(direction)?,
+            size: [width, height],
+            strength: Rgb::from(vec3(strength)?.to_array()),
+        };
+        self.change_light(index, &wanted).map_err(thrown)
+    }
+
+    /// Builds anew what [`Scene::set_light`] has only adapted: to the very tables, and so the very bits,
+    /// that the command line has.
+    ///
+    /// # Errors
+    /// When the scene contradicts itself.
+    pub fn settle(&mut self) -> Result<(), JsError> {
+        if self.settled { Ok(()) } else { self.build().map_err(thrown) }
+    }
+
+    /// Makes a choice of `halflight render` by its name: `technique`, `heuristic`, `lights`, `choose`,
+    /// `environment`, `sequence`, `light-samples`, `bsdf-samples`, `seed`. And `show`: `radiance`,
+    /// `visibility` (arriving luminance of the irradiance in red, without shadows in green), `occlusion`.
+    ///
+    /// # Errors
+    /// When there is no such choice.
+    pub fn choose(&mut self, name: &str, value: &str) -> Result<(), JsError> {
+        self.choices.set(name, value)?;
+        self.draw_environment().map_err(thrown)
+    }
+
+    /// Adds samples `first..last` to the pixels of a tile; returns the sum of weighted squared differences
+    /// and their number, for [`Progress`].
+    ///
+    /// * `pixels` – eight words each, 0 before the first sample: mean and sum of squared deviations of
+    ///   red, green and blue as floats, samples, rejected samples
+    ///
+    /// # Errors
+    /// When the tile is not in the picture, or has another number of pixels.
+    #[expect(clippy::too_many_arguments, reason = "plain numbers, for JavaScript")]
+    pub fn render(
+        &self,
+        x0: u32,
+        y0: u32,
+        x1: u32,
+        y1: u32,
+        first: u32,
+        last: u32,
+        pixels: &mut [u32],
+    ) -> Result<Vec<f64>, JsError> {
+        let tile = PixelRect { x0, y0, x1, y1 };
+        let sums = self.add_samples(tile, first, last, pixels).map_err(thrown)?;
+        let (sum, values) = sums.to_parts();
+        Ok(vec![sum, values as f64])
+    }
+
+    /// Looks at the middle of a pixel with some samples; `undefined` where there is no surface.
+    ///
+    /// # Errors
+    /// When the camera cannot be.
+    pub fn probe(&self, x: u32, y: u32, samples: u32) -> Result<Option<Probe>, JsError> {
+        self.look_at_pixel(x, y, samples).map_err(thrown)
+    }
+}
+
+/// The record of a picture's passes, and the error that follows from it.
+#[wasm_bindgen]
+#[derive(Debug, Default)]
+pub struct Progress(Convergence);
+
+#[wasm_bindgen]
+impl Progress {
+    /// Nothing rendered yet.
+    #[wasm_bindgen(constructor)]
+    #[must_use]
+    pub fn new() -> Progress {
+        Self::default()
+    }
+
+    /// Records a pass over the whole picture that brought its pixels to `samples` each.
+    ///
+    /// * `sum`, `values` – what [`Scene::render`] returned, added up over the tiles
+    pub fn record(&mut self, samples: u32, sum: f64, values: f64) {
+        self.0.record(samples, &DifferenceSums::from_parts((sum, values as u64)));
+    }
+
+    /// Estimated relative error √relMSE, as a fraction; `undefined` before the second sample.
+    #[must_use]
+    pub fn error(&self) -> Option<f64> {
+        self.0.relative_error()
+    }
+}
+
+/// Three numbers.
+fn vec3(numbers: &[f32]) -> Result<Vec3, JsError> {
+    match numbers {
+        &[x, y, z] => Ok(Vec3::new(x, y, z)),
+        _ => Err(JsError::new("a vector has three numbers")),
+    }
+}
+
+impl Scene {
+    pub(crate) fn new(mut description: Description, warnings: Vec<String>) -> Res<Self> {
+        let choices = Choices::default();
+        let density = choices.environment(&description);
+        description.environments.iter_mut().for_each(|map| map.density = density);
+        let buffers = SceneBuffers::new(&description)?;
+        let emits = |o: &Object| o.emission.is_some();
+        let objects = description.objects.iter().enumerate().filter(|(_, o)| emits(o));
+        let places = objects
+            .map(|(i, _)| Place::Object(i))
+            .chain((0..description.lights.len()).map(Place::Free))
+            .collect();
+        Ok(Self { description, buffers, places, choices, warnings, settled: true })
+    }
+
+    fn build(&mut self) -> Res<()> {
+        self.buffers = SceneBuffers::new(&self.description)?;
+        self.settled = true;
+        Ok(())
+    }
+
+    /// Rebuilds when directions toward environment maps are to be drawn in another way.
+    fn draw_environment(&mut self) -> Res<()> {
+        let density = self.choices.environment(&self.description);
+        if self.description.environments.iter().all(|map| map.density == density) {
+            return Ok(());
+        }
+        self.description.environments.iter_mut().for_each(|map| map.density = density);
+        self.build()
+    }
+
+    fn put_sky(&mut self, elevation: f64, azimuth: f64, turbidity: f64) -> Res<()> {
+        let before = self.description.lights.len();
+        Sky::new(elevation, azimuth, turbidity)?.scaled(Sky::EXPOSED).surround(&mut self.description)?;
+        self.places.extend((before..self.description.lights.len()).map(Place::Free));
+        self.draw_environment()?;
+        self.build()
+    }
+
+    fn light(&self, place: Place) -> Option<Light> {
+        match place {
+            Place::Object(i) => {
+                let object = self.description.objects.get(i)?;
+                Some(Light::of_object(object, object.emission.as_ref()?))
+            }
+            Place::Free(i) => self.description.lights.get(i).map(Light::of_light),
+        }
+    }
+
+    fn change_light(&mut self, index: usize, wanted: &Wanted<'_>) -> Res<()> {
+        let place = *self.places.get(index).ok_or("there is no such light")?;
+        let light = self.light(place).filter(|light| light.editable).ok_or("this light cannot be changed")?;
+        let before = match place {
+            Place::Object(i) => match &self.description.objects[i].geometry {
+                Geometry::Shape(shape) => Some(*shape),
+                Geometry::Mesh(_) => None,
+            },
+            Place::Free(_) => None,
+        };
+        match (place, wanted.make(before.as_ref())?) {
+            (Place::Object(i), Made::Surface(shape, radiance)) => {
+                let object = &mut self.description.objects[i];
+                object.geometry = Geometry::Shape(shape);
+                if let Some(emission) = &mut object.emission {
+                    emission.radiance = radiance;
+                }
+            }
+            (Place::Free(i), Made::Free(light)) => self.description.lights[i] = light,
+            (Place::Object(i), Made::Free(light)) => {
+                self.description.objects.remove(i);
+                self.forget(place);
+                self.places[index] = Place::Free(self.description.lights.len());
+                self.description.lights.push(light);
+            }
+            (Place::Free(i), Made::Surface(shape, radiance)) => {
+                self.description.lights.remove(i);
+                self.forget(place);
+                self.places[index] = Place::Object(self.description.objects.len());
+                let object = lamp(&mut self.description, light.name, shape, radiance)?;
+                self.description.objects.push(object);
+            }
+        }
+        self.settled = false;
+        if self.buffers.relight(&self.description)? { Ok(()) } else { self.build() }
+    }
+
+    /// Takes note that something was removed.
+    fn forget(&mut self, removed: Place) {
+        for place in &mut self.places {
+            match (place, removed) {
+                (Place::Object(i), Place::Object(gone)) | (Place::Free(i), Place::Free(gone)) if *i > gone => {
+                    *i -= 1;
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn film(&self) -> Res<Film> {
+        Ok(Film::new(self.description.width, self.description.height, self.description.filter)?)
+    }
+
+    fn camera(&self) -> Res<halflight::Camera> {
+        Ok(self.description.camera.camera(self.description.width, self.description.height)?)
+    }
+
+    pub(crate) fn add_samples(
+        &self,
+        tile: PixelRect,
+        first: u32,
+        last: u32,
+        pixels: &mut [u32],
+    ) -> Res<DifferenceSums> {
+        let film = self.film()?.with_crop(tile)?;
+        if pixels.len() != tile.area() * render::WORDS {
+            return Err("a pixel takes eight words".into());
+        }
+        let of = (&self.description, &self.buffers);
+        Ok(render::render(of, (self.camera()?, film), &self.choices, tile, first..last, pixels))
+    }
+
+    pub(crate) fn look_at_pixel(&self, x: u32, y: u32, samples: u32) -> Res<Option<Probe>> {
+        let bound = self.buffers.bind();
+        let of = (&bound.scene(), &self.buffers);
+        Ok(probe::probe(of, (&self.camera()?, &self.film()?), &self.choices, (x, y), samples))
+    }
+}
+
+/// A surface that emits and reflects nothing.
+fn lamp(
+    description: &mut Description,
+    name: String,
+    shape: halflight::shape::AnyShape,
+    radiance: Rgb,
+) -> Res<Object> {
+    let black = TwoSided::both(AnyBsdf::Lambert(Lambert::new(Rgb::BLACK)?));
+    let plain = |m: &Material| m.bsdf == black && m.is_plain();
+    let material = match description.materials.iter().position(plain) {
+        Some(index) => index,
+        None => {
+            let textures = <[_; 2]>::default();
+            description.materials.push(Material { name: "lamp".to_owned(), bsdf: black, textures });
+            description.materials.len() - 1
+        }
+    };
+    let emission = Some(Emission { radiance, texture: None, two_sided: false });
+    Ok(Object { name, geometry: Geometry::Shape(shape), material, emission, object_space: None })
+}

@@ -1,0 +1,90 @@
+// What a worker does with its instance of the module; without workers, the page does it itself.
+//
+// A message is { type, side, ... }: `side` 0 or 1 says which of two scenes, for comparing two ways to
+// render one. Answers are plain objects and typed arrays.
+
+import init, { Scene } from '../halflight.js';
+
+/** The fields of an object of the module, as a plain object; the module's is freed. */
+function plain(object, ...fields) {
+  const out = Object.fromEntries(fields.map((field) => [field, object[field]]));
+  object.free();
+  return out;
+}
+
+const facts = (scene) => plain(scene.facts(), 'name', 'width', 'height', 'triangles', 'analytic', 'lights',
+  'environments', 'bytes', 'radius', 'warnings');
+const view = (scene) => plain(scene.view(), 'origin', 'right', 'up', 'forward', 'orthographic', 'half_width');
+const lights = (scene) => scene.lights().map((light) => plain(light, 'name', 'kind', 'position', 'direction',
+  'size', 'strength', 'outline', 'editable'));
+
+function probe(scene, { x, y, samples }) {
+  const seen = scene.probe(x, y, samples);
+  if (!seen) return null;
+  const out = plain(seen, 'point', 'normal', 'distance', 'samples', 'irradiance', 'means', 'errors', 'unshadowed',
+    'closed_form', 'rays', 'lights');
+  out.lights = out.lights.map((light) => plain(light, 'light', 'kind', 'arriving', 'unshadowed', 'closed_form',
+    'density'));
+  return out;
+}
+
+/** Makes the changes of a message, in order. */
+function change(scene, edits) {
+  for (const [what, ...args] of edits) {
+    if (what === 'look') scene.look(...args);
+    else if (what === 'light') scene.set_light(...args);
+    else if (what === 'choose') scene.choose(...args);
+    else if (what === 'settle') scene.settle();
+    else throw new Error(`no such change: ${what}`);
+  }
+}
+
+export class Core {
+  #scenes = [];
+
+  /** Answers a message. */
+  async handle(message) {
+    if (message.type === 'init') {
+      await init({ module_or_path: message.module });
+      return {};
+    }
+    if (message.type === 'load') return this.#load(message);
+    if (message.type === 'close') {
+      this.#scenes[message.side]?.free();
+      this.#scenes[message.side] = undefined;
+      return {};
+    }
+    const scene = this.#scenes[message.side];
+    if (!scene) throw new Error('there is no scene');
+    if (message.type === 'change') {
+      change(scene, message.edits);
+      return { lights: lights(scene) };
+    }
+    if (message.type === 'render') return this.#render(scene, message);
+    if (message.type === 'probe') {
+      scene.resize(...message.size);
+      return { probe: probe(scene, message) };
+    }
+    throw new Error(`no such message: ${message.type}`);
+  }
+
+  #load({ side, source, edits }) {
+    const scene = source.builtin ? Scene.builtin(source.builtin) : Scene.read(source.name, source.files);
+    this.#scenes[side]?.free();
+    this.#scenes[side] = scene;
+    const author = { facts: facts(scene), view: view(scene), authored: lights(scene) };
+    change(scene, edits);
+    return { ...author, lights: lights(scene) };
+  }
+
+  #render(scene, { size, tile: [x0, y0, x1, y1], first, last, pixels }) {
+    const start = performance.now();
+    scene.resize(...size);
+    const words = pixels ?? new Uint32Array(8 * (x1 - x0) * (y1 - y0));
+    const [sum, values] = scene.render(x0, y0, x1, y1, first, last, words);
+    return { pixels: words, sum, values, ms: performance.now() - start };
+  }
+}
+
+/** The memory that goes with an answer, rather than being copied. */
+export const transfers = (answer) => (answer.pixels ? [answer.pixels.buffer] : []);

@@ -1,0 +1,207 @@
+// Progressive rendering: passes that double the samples, cut into tiles for the workers; and quick
+// frames at a lower resolution while something moves.
+
+import { Film } from './film.js';
+
+/** How long a worker should be busy with one tile (ms): no longer than a change may wait. */
+const TILE_MS = 30;
+/** How long all workers together should take for a frame while something moves (ms). */
+const FRAME_MS = 22;
+/** How long nothing must have moved before the picture is refined (ms). */
+const STILL_MS = 140;
+/** Samples after which a pixel is as good as single precision can make it. */
+const MOST_SAMPLES = 1 << 16;
+
+export class Renderer extends EventTarget {
+  films = [];
+  paused = false;
+  /** Relative error at which it is good enough. */
+  target = 0.01;
+  /** Fixed number of samples instead, when not 0. */
+  budget = 0;
+  /** `samples` or `time`: what two sides have in common. */
+  equal = 'samples';
+  /** Samples of all workers in a second. */
+  rate = 1e6;
+  /** Frames of late, for telling how many there are in a second. */
+  frames = [];
+  elapsed = 0;
+
+  #pool;
+  #generation = 0;
+  #moving = false;
+  #moved = 0;
+  #running = Promise.resolve();
+  #wake = () => {};
+
+  constructor(pool) {
+    super();
+    this.#pool = pool;
+    this.#loop();
+  }
+
+  #tell(type, detail) {
+    this.dispatchEvent(new CustomEvent(type, { detail }));
+  }
+
+  /** Begins anew: `sides` pictures of a size. Call it after the scene has changed. */
+  restart(width, height, sides) {
+    this.#generation += 1;
+    for (const film of this.films) film.free();
+    this.films = Array.from({ length: sides }, () => new Film(width, height));
+    this.elapsed = 0;
+    this.#wake();
+  }
+
+  /** As `restart`, for something that is being moved: quick frames first. */
+  move(width, height, sides) {
+    this.#moving = true;
+    this.#moved = performance.now();
+    this.restart(width, height, sides);
+  }
+
+  /** True while something moves. */
+  get moving() {
+    return this.#moving;
+  }
+
+  /** The movement is over. */
+  release() {
+    this.#moved = -Infinity;
+    this.#wake();
+  }
+
+  pause(paused) {
+    this.paused = paused;
+    this.#wake();
+  }
+
+  /** True when a side is good enough, or has what it may have. */
+  done(film) {
+    if (this.budget) return film.samples >= this.budget;
+    return film.samples >= MOST_SAMPLES || (film.samples >= 8 && film.error <= this.target);
+  }
+
+  /** The side to work on next; undefined when all are done. Of two, none goes on without the other. */
+  #next() {
+    if (this.films.length === 0 || this.films.every((film) => this.done(film))) return undefined;
+    const spent = (film) => (this.equal === 'time' ? film.busy : film.samples);
+    return this.films.reduce((a, b) => (spent(b) < spent(a) ? b : a));
+  }
+
+  async #loop() {
+    for (;;) {
+      const film = this.paused && this.films[0]?.samples ? undefined : this.#next();
+      if (!film || document.hidden) {
+        this.#tell('idle');
+        await new Promise((resolve) => { this.#wake = resolve; setTimeout(resolve, 500); });
+        this.#wake = () => {};
+      } else if (this.#moving) {
+        await this.#frame();
+      } else {
+        await this.#pass(film);
+      }
+    }
+  }
+
+  /** A frame at a resolution that takes a fraction of a second. */
+  async #frame() {
+    if (performance.now() - this.#moved > STILL_MS) {
+      this.#moving = false;
+      this.frames = [];
+      this.#tell('still');
+      return;
+    }
+    const generation = this.#generation;
+    const { width, height } = this.films[0];
+    const sides = this.films.length;
+    const pixels = Math.max(this.rate * (FRAME_MS / 1000) / sides, 2000);
+    const scale = Math.max(1, Math.min(8, Math.sqrt((width * height) / pixels)));
+    const size = [Math.max(1, Math.round(width / scale)), Math.max(1, Math.round(height / scale))];
+    const start = performance.now();
+    const films = await Promise.all(this.films.map((_, side) => this.#quick(side, size)));
+    this.#measure(size[0] * size[1] * sides, performance.now() - start);
+    if (generation !== this.#generation && this.films.length !== sides) return;
+    this.frames = [...this.frames.filter((t) => start - t < 1000), performance.now()];
+    this.#tell('frame', { films });
+    // What has not moved since is not worth another frame.
+    if (generation === this.#generation) {
+      const wait = Math.max(0, STILL_MS - (performance.now() - this.#moved));
+      await new Promise((resolve) => { this.#wake = resolve; setTimeout(resolve, wait); });
+      this.#wake = () => {};
+    }
+  }
+
+  /** One sample for each pixel of a small film, a band to each worker. */
+  async #quick(side, [width, height]) {
+    const film = new Film(width, height);
+    film.free();
+    const { workers } = this.#pool;
+    await Promise.all(workers.map(async (worker, i) => {
+      const edge = (k) => Math.round((height * k) / workers.length);
+      const tile = [0, edge(i), width, edge(i + 1)];
+      if (tile[1] === tile[3]) return;
+      const message = { type: 'render', side, size: [width, height], tile, first: 0, last: 1 };
+      const { pixels } = await worker.ask(message);
+      film.paste(tile, pixels);
+    }));
+    return film;
+  }
+
+  /** As many samples again for each pixel of a side. */
+  async #pass(film) {
+    const generation = this.#generation;
+    const side = this.films.indexOf(film);
+    const most = this.budget || MOST_SAMPLES;
+    const [first, last] = [film.samples, Math.min(Math.max(1, 2 * film.samples), most)];
+    const tiles = this.#tiles(film, last - first);
+    const totals = tiles.map(() => [0, 0]);
+    let next = 0;
+    const start = performance.now();
+    const work = async (worker) => {
+      while (next < tiles.length && generation === this.#generation) {
+        const index = next++;
+        totals[index] = await this.#tile(worker, { film, side, tile: tiles[index], first, last, generation });
+      }
+    };
+    // Two at a time for each worker, so that none waits for the page.
+    await Promise.all(this.#pool.workers.flatMap((worker) => [work(worker), work(worker)]));
+    if (generation !== this.#generation) return;
+    const ms = performance.now() - start;
+    this.elapsed += ms;
+    this.#measure(film.width * film.height * (last - first), ms);
+    const [sum, values] = totals.reduce((a, b) => [a[0] + b[0], a[1] + b[1]], [0, 0]);
+    film.record(last, sum, values);
+    this.#tell('pass', { film, side });
+  }
+
+  async #tile(worker, { film, side, tile, first, last, generation }) {
+    const pixels = film.cut(tile);
+    const message = { type: 'render', side, size: [film.width, film.height], tile, first, last, pixels };
+    const answer = await worker.ask(message, [pixels.buffer]);
+    if (generation !== this.#generation) return [0, 0];
+    film.paste(tile, answer.pixels);
+    film.busy += answer.ms;
+    this.#tell('tile', { film, side, tile });
+    return [answer.sum, answer.values];
+  }
+
+  /** Rectangles of such a size that a worker is soon done with one. */
+  #tiles({ width, height }, samples) {
+    const pixels = (this.rate / this.#pool.workers.length) * (TILE_MS / 1000) / samples;
+    const rows = Math.max(1, Math.min(Math.floor(pixels / width), Math.ceil(height / 8)));
+    const columns = rows > 1 ? width : Math.max(16, Math.min(width, Math.floor(pixels)));
+    const tiles = [];
+    for (let y = 0; y < height; y += rows) {
+      for (let x = 0; x < width; x += columns) {
+        tiles.push([x, y, Math.min(x + columns, width), Math.min(y + rows, height)]);
+      }
+    }
+    return tiles;
+  }
+
+  #measure(samples, ms) {
+    const now = samples / Math.max(ms / 1000, 1e-3);
+    this.rate += 0.4 * (now - this.rate);
+  }
+}
