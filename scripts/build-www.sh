@@ -13,14 +13,20 @@ target_dir=${CARGO_TARGET_DIR:-target}
 out=${1:-$target_dir/www}
 cargo build --locked --quiet --package halflight-wasm --features bindgen --bin halflight-bindgen \
     --profile tool
-# A variable of the target: build scripts and macros of this machine are not touched.
-CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS=-Ctarget-feature=+simd128 \
-    scripts/target-env.sh wasm32-unknown-unknown \
-    cargo build --locked --quiet --package halflight-wasm --lib --profile www \
-    --target wasm32-unknown-unknown --target-dir "$target_dir/wasm"
 mkdir -p "$out"
 cp -R www/. "$out/"
-"$target_dir/tool/halflight-bindgen" \
-    "$target_dir/wasm/wasm32-unknown-unknown/www/halflight_wasm.wasm" "$out"
-size=$(gzip -9c "$out/halflight_bg.wasm" | wc -c)
-echo "$out: module of $((size / 1024)) KiB, gzipped"
+# The module of the page, and the one with readers of files, which it fetches when it is handed some.
+build() {
+    local folder=$1
+    shift
+    # A variable of the target: build scripts and macros of this machine are not touched.
+    CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS='-Ctarget-feature=+simd128 -Cllvm-args=-inline-threshold=100' \
+        scripts/target-env.sh wasm32-unknown-unknown \
+        cargo build --locked --quiet --package halflight-wasm --lib --profile www "$@" \
+        --target wasm32-unknown-unknown --target-dir "$target_dir/wasm"
+    "$target_dir/tool/halflight-bindgen" \
+        "$target_dir/wasm/wasm32-unknown-unknown/www/halflight_wasm.wasm" "$folder"
+    echo "$folder: module of $(($(gzip -9c "$folder/halflight_bg.wasm" | wc -c) / 1024)) KiB, gzipped"
+}
+build "$out"
+build "$out/files" --features files

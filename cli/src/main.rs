@@ -17,7 +17,7 @@ mod scene;
 mod terminal;
 
 use args::{Command, RenderArgs};
-use commands::{compare, export, inspect, render, scenes};
+use commands::{compare, export, inspect, render, scenes, serve};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -28,6 +28,7 @@ fn main() -> ExitCode {
         Some(Command::Export(args)) => export::run(&args),
         Some(Command::Inspect(args)) => inspect::run(&args),
         Some(Command::Compare(args)) => compare::run(&args),
+        Some(Command::Serve(args)) => serve::run(&args),
     };
     match result {
         Ok(exit) => exit.into(),

@@ -58,7 +58,11 @@ pub(crate) struct UnknownChoice {
 
 impl fmt::Display for UnknownChoice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "there is no choice {} = {}; the names are those of halflight render", self.name, self.value)
+        write!(
+            f,
+            "there is no choice {} = {}; the names are those of halflight render",
+            self.name, self.value
+        )
     }
 }
 
@@ -139,9 +143,7 @@ impl Choices {
         let light_samples = samples(self.light_samples, author.light_samples);
         match self.shown {
             Shown::Occlusion => Estimator::Occlusion(Occlusion::default()),
-            Shown::Visibility => {
-                Estimator::Arrival(Arrival { light_samples, surface: self.surface, choice })
-            }
+            Shown::Visibility => Estimator::Arrival(Arrival { light_samples, surface: self.surface, choice }),
             Shown::Radiance => Estimator::Direct(Direct {
                 technique: self.technique(description),
                 light_samples,

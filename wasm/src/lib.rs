@@ -12,17 +12,28 @@
 //! for (let n = 0; n < 16; n++) scene.render(0, 0, 480, 320, n, n + 1, pixels);
 //! ```
 //!
+//! Reading files takes as much code as all the rest: the feature `files` adds it, and the page fetches
+//! the module that has it when it is handed a file.
+//!
 //! One [`Scene`] belongs to one thread; several workers each have their own, and render parts of one
 //! picture: a pixel does not depend on who renders it.
 
 mod camera;
 mod choices;
+mod facts;
+#[cfg(feature = "files")]
+mod files;
 mod light;
 mod probe;
+mod progress;
 mod render;
 mod scene;
 
 pub use camera::View;
+pub use facts::{BuiltinScene, Facts};
+#[cfg(feature = "files")]
+pub use files::Files;
 pub use light::Light;
 pub use probe::{Probe, ProbedLight};
-pub use scene::{BuiltinScene, Facts, Progress, Scene};
+pub use progress::Progress;
+pub use scene::Scene;

@@ -4,7 +4,9 @@ use halflight::Rgb;
 use halflight::build::{Emission, Geometry, Object};
 use halflight::geom::Frame;
 use halflight::glam::Vec3;
-use halflight::light::{AnyLight, Constant, Directional, Emitter, LightError, Point, Receiver, SurfaceDensity};
+use halflight::light::{
+    AnyLight, Constant, Directional, Emitter, LightError, Point, Receiver, SurfaceDensity,
+};
 use halflight::num::PI;
 use halflight::shape::{AnyShape, Cylinder, Disk, Rectangle, Shape, ShapeError, Sphere};
 use std::fmt;
@@ -217,9 +219,7 @@ impl Light {
     fn fill_from(&mut self, shape: &AnyShape, radiance: Rgb) {
         let flat = |centre: Vec3, u: Vec3, v: Vec3, normal: Vec3| (centre, normal, [u.length(), v.length()]);
         let (kind, (centre, direction, half)) = match shape {
-            AnyShape::Rectangle(r) => {
-                ("rectangle", flat(r.centre(), r.half_u(), r.half_v(), r.normal()))
-            }
+            AnyShape::Rectangle(r) => ("rectangle", flat(r.centre(), r.half_u(), r.half_v(), r.normal())),
             AnyShape::Disk(d) => ("disk", flat(d.centre(), d.axis_u(), d.axis_v(), d.normal())),
             AnyShape::Sphere(s) => ("sphere", (s.centre(), Vec3::NEG_Y, [s.radius(); 2])),
             AnyShape::Cylinder(c) => {
@@ -303,7 +303,8 @@ mod tests {
     #[test]
     fn a_rectangle_that_is_tilted_keeps_its_turn() {
         let before = Rectangle::new(Vec3::ZERO, Vec3::new(0.6, 0.0, 0.8), Vec3::new(-0.8, 0.0, 0.6)).unwrap();
-        let facing = |direction| match (Wanted { direction, ..wanted("rectangle") }).make(Some(&AnyShape::Rectangle(before)))
+        let facing = |direction| match (Wanted { direction, ..wanted("rectangle") })
+            .make(Some(&AnyShape::Rectangle(before)))
         {
             Ok(Made::Surface(AnyShape::Rectangle(r), _)) => r,
             other => panic!("{other:?}"),

@@ -165,9 +165,8 @@ impl Known {
     fn into_probe(self, scene: &AnyScene<'_>, samples: u32) -> Probe {
         let Self { mut probe, from, stats, shares, .. } = self;
         let n = f64::from(samples.max(1));
-        let closed = |light: &AnyLight<'_>| {
-            light.unshadowed_irradiance(&from).map(|e| f64::from(e.luminance()))
-        };
+        let closed =
+            |light: &AnyLight<'_>| light.unshadowed_irradiance(&from).map(|e| f64::from(e.luminance()));
         let all: Option<Vec<f64>> = scene.lights().iter().map(closed).collect();
         probe.samples = samples;
         probe.irradiance = stats.mean().to_array().to_vec();

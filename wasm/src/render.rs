@@ -21,7 +21,8 @@ pub(crate) fn render(
 ) -> DifferenceSums {
     let bound = buffers.bind();
     let scene = bound.scene();
-    let mut pixels: Vec<PixelStats> = words.as_chunks().0.iter().map(|w| PixelStats::from_words(*w)).collect();
+    let mut pixels: Vec<PixelStats> =
+        words.as_chunks().0.iter().map(|w| PixelStats::from_words(*w)).collect();
     macro_rules! job {
         ($estimator:expr) => {
             Job { scene, camera, film, estimator: $estimator, sequence: choices.sequence() }.render(

@@ -3,64 +3,29 @@
 use crate::camera::{look, zoomed};
 use crate::choices::Choices;
 use crate::light::{Light, Made, Wanted};
-use crate::{Probe, View, probe, render};
+use crate::{BuiltinScene, Facts, Probe, View, probe, render};
 use halflight::Film;
 use halflight::Rgb;
-use halflight::build::{Description, Emission, Geometry, Material, Object, SceneBuffers, Sky};
 use halflight::bsdf::{AnyBsdf, Lambert, TwoSided};
-use halflight::estimate::{Convergence, DifferenceSums};
+use halflight::build::{Description, Emission, Geometry, Material, Object, SceneBuffers};
+use halflight::estimate::DifferenceSums;
 use halflight::film::PixelRect;
 use halflight::glam::Vec3;
 use halflight::load::builtin::{BUILTIN, builtin};
 use std::error::Error;
 use wasm_bindgen::prelude::*;
 
-type Res<T> = Result<T, Box<dyn Error>>;
+/// What a call comes to before JavaScript hears of it.
+pub(crate) type Res<T> = Result<T, Box<dyn Error>>;
 
 /// For JavaScript.
-fn thrown(error: Box<dyn Error>) -> JsError {
+pub(crate) fn thrown(error: Box<dyn Error>) -> JsError {
     JsError::new(&error.to_string())
-}
-
-/// A built-in scene.
-#[wasm_bindgen(getter_with_clone)]
-#[derive(Debug, Clone)]
-pub struct BuiltinScene {
-    /// What it is asked for by.
-    pub name: String,
-    /// What it shows, in one line.
-    pub about: String,
-}
-
-/// What a scene holds.
-#[wasm_bindgen(getter_with_clone)]
-#[derive(Debug, Clone)]
-pub struct Facts {
-    /// Its name.
-    pub name: String,
-    /// Columns of its author's picture.
-    pub width: u32,
-    /// Rows of its author's picture.
-    pub height: u32,
-    /// Triangles.
-    pub triangles: u32,
-    /// Rectangles, disks, spheres and cylinders.
-    pub analytic: u32,
-    /// Lights, counting each emitting triangle.
-    pub lights: u32,
-    /// Environment maps among them.
-    pub environments: u32,
-    /// Bytes of all tables.
-    pub bytes: u32,
-    /// Radius of a sphere that holds it (m).
-    pub radius: f32,
-    /// What was read, but not as written.
-    pub warnings: Vec<String>,
 }
 
 /// Where a light is kept.
 #[derive(Debug, Clone, Copy)]
-enum Place {
+pub(crate) enum Place {
     Object(usize),
     Free(usize),
 }
@@ -69,10 +34,10 @@ enum Place {
 #[wasm_bindgen]
 #[derive(Debug)]
 pub struct Scene {
-    description: Description,
+    pub(crate) description: Description,
     buffers: SceneBuffers,
-    places: Vec<Place>,
-    choices: Choices,
+    pub(crate) places: Vec<Place>,
+    pub(crate) choices: Choices,
     warnings: Vec<String>,
     /// False when the tree has the form of lights that were elsewhere.
     settled: bool,
@@ -97,16 +62,6 @@ impl Scene {
     pub fn builtin(name: &str) -> Result<Scene, JsError> {
         let description = builtin(name).ok_or_else(|| JsError::new(&format!("there is no scene {name}")))?;
         Self::new(description, Vec::new()).map_err(thrown)
-    }
-
-    /// Puts a clear sky with its sun around the scene.
-    ///
-    /// * `elevation`, `azimuth` – of the sun (degrees); `turbidity` – from 2, clear, to 10, hazy
-    ///
-    /// # Errors
-    /// When the sun is not in the sky.
-    pub fn surround(&mut self, elevation: f64, azimuth: f64, turbidity: f64) -> Result<(), JsError> {
-        self.put_sky(elevation, azimuth, turbidity).map_err(thrown)
     }
 
     /// What it holds.
@@ -250,34 +205,6 @@ impl Scene {
     }
 }
 
-/// The record of a picture's passes, and the error that follows from it.
-#[wasm_bindgen]
-#[derive(Debug, Default)]
-pub struct Progress(Convergence);
-
-#[wasm_bindgen]
-impl Progress {
-    /// Nothing rendered yet.
-    #[wasm_bindgen(constructor)]
-    #[must_use]
-    pub fn new() -> Progress {
-        Self::default()
-    }
-
-    /// Records a pass over the whole picture that brought its pixels to `samples` each.
-    ///
-    /// * `sum`, `values` – what [`Scene::render`] returned, added up over the tiles
-    pub fn record(&mut self, samples: u32, sum: f64, values: f64) {
-        self.0.record(samples, &DifferenceSums::from_parts((sum, values as u64)));
-    }
-
-    /// Estimated relative error √relMSE, as a fraction; `undefined` before the second sample.
-    #[must_use]
-    pub fn error(&self) -> Option<f64> {
-        self.0.relative_error()
-    }
-}
-
 /// Three numbers.
 fn vec3(numbers: &[f32]) -> Result<Vec3, JsError> {
     match numbers {
@@ -292,16 +219,11 @@ impl Scene {
         let density = choices.environment(&description);
         description.environments.iter_mut().for_each(|map| map.density = density);
         let buffers = SceneBuffers::new(&description)?;
-        let emits = |o: &Object| o.emission.is_some();
-        let objects = description.objects.iter().enumerate().filter(|(_, o)| emits(o));
-        let places = objects
-            .map(|(i, _)| Place::Object(i))
-            .chain((0..description.lights.len()).map(Place::Free))
-            .collect();
+        let places = places(&description);
         Ok(Self { description, buffers, places, choices, warnings, settled: true })
     }
 
-    fn build(&mut self) -> Res<()> {
+    pub(crate) fn build(&mut self) -> Res<()> {
         self.buffers = SceneBuffers::new(&self.description)?;
         self.settled = true;
         Ok(())
@@ -314,14 +236,6 @@ impl Scene {
             return Ok(());
         }
         self.description.environments.iter_mut().for_each(|map| map.density = density);
-        self.build()
-    }
-
-    fn put_sky(&mut self, elevation: f64, azimuth: f64, turbidity: f64) -> Res<()> {
-        let before = self.description.lights.len();
-        Sky::new(elevation, azimuth, turbidity)?.scaled(Sky::EXPOSED).surround(&mut self.description)?;
-        self.places.extend((before..self.description.lights.len()).map(Place::Free));
-        self.draw_environment()?;
         self.build()
     }
 
@@ -376,7 +290,9 @@ impl Scene {
     fn forget(&mut self, removed: Place) {
         for place in &mut self.places {
             match (place, removed) {
-                (Place::Object(i), Place::Object(gone)) | (Place::Free(i), Place::Free(gone)) if *i > gone => {
+                (Place::Object(i), Place::Object(gone)) | (Place::Free(i), Place::Free(gone))
+                    if *i > gone =>
+                {
                     *i -= 1;
                 }
                 _ => {}
@@ -412,6 +328,12 @@ impl Scene {
         let of = (&bound.scene(), &self.buffers);
         Ok(probe::probe(of, (&self.camera()?, &self.film()?), &self.choices, (x, y), samples))
     }
+}
+
+/// Where the lights are kept.
+pub(crate) fn places(description: &Description) -> Vec<Place> {
+    let objects = description.objects.iter().enumerate().filter(|(_, o)| o.emission.is_some());
+    objects.map(|(i, _)| Place::Object(i)).chain((0..description.lights.len()).map(Place::Free)).collect()
 }
 
 /// A surface that emits and reflects nothing.

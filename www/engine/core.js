@@ -3,7 +3,7 @@
 // A message is { type, side, ... }: `side` 0 or 1 says which of two scenes, for comparing two ways to
 // render one. Answers are plain objects and typed arrays.
 
-import init, { Scene } from '../halflight.js';
+import init, { Files, Scene } from '../halflight.js';
 
 /** The fields of an object of the module, as a plain object; the module's is freed. */
 function plain(object, ...fields) {
@@ -26,6 +26,19 @@ function probe(scene, { x, y, samples }) {
   out.lights = out.lights.map((light) => plain(light, 'light', 'kind', 'arriving', 'unshadowed', 'closed_form',
     'density'));
   return out;
+}
+
+/** A scene: { builtin } or { name, files: [[path, bytes]] }, and perhaps { sky: { name, files } }. */
+function open({ builtin, name, files = [], sky }) {
+  const given = new Files();
+  for (const [path, bytes] of [...files, ...(sky?.files ?? [])]) given.add(path, bytes);
+  try {
+    const scene = builtin ? Scene.builtin(builtin) : Scene.read(name, given);
+    if (sky) scene.surround(sky.name, given);
+    return scene;
+  } finally {
+    given.free();
+  }
 }
 
 /** Makes the changes of a message, in order. */
@@ -69,7 +82,7 @@ export class Core {
   }
 
   #load({ side, source, edits }) {
-    const scene = source.builtin ? Scene.builtin(source.builtin) : Scene.read(source.name, source.files);
+    const scene = open(source);
     this.#scenes[side]?.free();
     this.#scenes[side] = scene;
     const author = { facts: facts(scene), view: view(scene), authored: lights(scene) };

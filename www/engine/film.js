@@ -11,8 +11,9 @@ export class Film {
     this.height = height;
     this.words = new Uint32Array(WORDS * width * height);
     this.floats = new Float32Array(this.words.buffer);
-    /** Samples of every pixel. */
+    /** Samples of every pixel, and of the one that has most. */
     this.samples = 0;
+    this.most = 1;
     /** Milliseconds that workers have spent on it. */
     this.busy = 0;
     /** What each pass has led to: { samples, seconds, error }. */
@@ -38,6 +39,7 @@ export class Film {
 
   /** Puts the pixels of a tile back. */
   paste([x0, y0, x1, y1], pixels) {
+    this.most = Math.max(this.most, pixels[6]);
     const columns = WORDS * (x1 - x0);
     for (let y = y0; y < y1; y++) {
       const from = columns * (y - y0);

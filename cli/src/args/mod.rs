@@ -13,6 +13,7 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Args, Parser, Subcommand};
 use halflight::build::Sky;
 use halflight::load::builtin::BUILTIN;
+use std::net::{IpAddr, Ipv4Addr};
 use std::path::PathBuf;
 
 /// Direct lighting from area and environment lights, to a known accuracy
@@ -39,6 +40,8 @@ pub(crate) enum Command {
     Inspect(InspectArgs),
     /// Measure how far a picture is from a reference
     Compare(CompareArgs),
+    /// Serve the browser page on this machine
+    Serve(ServeArgs),
 }
 
 /// `halflight scenes`
@@ -121,6 +124,22 @@ pub(crate) struct CompareArgs {
     /// Print one JSON object
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+/// `halflight serve`
+#[derive(Debug, Args)]
+pub(crate) struct ServeArgs {
+    /// The folder that scripts/build-www.sh has made
+    #[arg(value_name = "FOLDER", default_value = "target/www")]
+    pub(crate) folder: PathBuf,
+
+    /// Port to listen on; 0 takes a free one
+    #[arg(long, value_name = "N", default_value_t = 8080)]
+    pub(crate) port: u16,
+
+    /// Address to listen on; others than this one show the page to the network
+    #[arg(long, value_name = "IP", default_value_t = IpAddr::V4(Ipv4Addr::LOCALHOST))]
+    pub(crate) address: IpAddr,
 }
 
 /// Colours of the help.

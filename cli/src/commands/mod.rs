@@ -5,3 +5,4 @@ pub(crate) mod export;
 pub(crate) mod inspect;
 pub(crate) mod render;
 pub(crate) mod scenes;
+pub(crate) mod serve;

@@ -9,4 +9,5 @@ mod help;
 mod interrupt;
 mod output_range;
 mod results;
+mod serve;
 mod support;

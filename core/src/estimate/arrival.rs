@@ -1,6 +1,6 @@
 //! How much of the light arrives: the numbers behind umbra and penumbra, and the rays that gave them.
 
-use super::Estimator;
+use super::{Estimator, Observer};
 use crate::Rgb;
 use crate::choose::LightChoice;
 use crate::geom::Ray;
@@ -115,17 +115,20 @@ impl Arrival<'_> {
 
 impl Estimator for Arrival<'_> {
     #[inline]
-    fn sample<S: Shape, L: Emitter, M: Material>(
+    fn observe<S: Shape, L: Emitter, M: Material>(
         &self,
         scene: &Scene<'_, S, L, M>,
         ray: &Ray,
         reach: f32,
         sequence: &mut impl Sequence,
+        observer: &mut impl Observer,
     ) -> Rgb {
         let Some(hit) = scene.closest_hit(ray, reach) else { return Rgb::BLACK };
+        observer.surface(&hit, -ray.direction, || Rgb::WHITE);
         let (mut arriving, mut unshadowed) = (0.0, 0.0);
         let draws = self.each_ray(scene, &hit, -ray.direction, sequence, |ray| {
             let luminance = ray.irradiance.luminance();
+            observer.light(ray.arrives, || ray.irradiance.average());
             unshadowed += luminance;
             arriving += if ray.arrives { luminance } else { 0.0 };
         });
@@ -188,6 +191,7 @@ mod tests {
             ],
             lights: vec![],
             environments: vec![],
+            portals: vec![],
         }
     }
 
@@ -225,10 +229,7 @@ mod tests {
             Arrival { light_samples: 64, surface: SurfaceDensity::Projected, choice: LightChoice::All };
         sequence.start(0, 0);
         let mut rays = vec![];
-        assert_eq!(
-            arrival.each_ray(&scene, &hit, eye.normalize(), &mut sequence, |ray| rays.push(ray)),
-            64
-        );
+        assert_eq!(arrival.each_ray(&scene, &hit, eye.normalize(), &mut sequence, |ray| rays.push(ray)), 64);
         assert_eq!(rays.len(), 64);
         for ray in rays {
             let end = hit.at.point + ray.wi * ray.distance;

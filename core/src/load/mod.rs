@@ -7,6 +7,7 @@
 pub mod builtin;
 mod error;
 mod export;
+mod files;
 mod image;
 mod mesh;
 mod mesh_error;
@@ -18,7 +19,10 @@ mod suggest;
 
 pub use error::{LoadError, Position, Problem, Warning};
 pub use export::{ExportError, export_mitsuba};
-pub use image::{Encoding, ImageError, MAX_TEXELS, read_image, read_texels, srgb_to_linear, write_exr};
+pub use files::Files;
+pub use image::{
+    Encoding, ImageError, MAX_TEXELS, read_image, read_image_from, read_texels, srgb_to_linear, write_exr,
+};
 pub use mesh_error::MeshError;
 
 use crate::build::Description;
@@ -50,8 +54,16 @@ pub struct Loaded {
 /// When the file or one that it refers to cannot be read, is malformed, or asks for what is not
 /// supported.
 pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, LoadError> {
+    load_from(&Files::on_disk(), path, options)
+}
+
+/// Reads a scene as [`load`] does, from files wherever they are.
+///
+/// # Errors
+/// As [`load`].
+pub fn load_from(files: &Files, path: &Path, options: &LoadOptions) -> Result<Loaded, LoadError> {
     match path.extension() {
-        Some(extension) if extension.eq_ignore_ascii_case("xml") => mitsuba::load(path, options),
+        Some(extension) if extension.eq_ignore_ascii_case("xml") => mitsuba::load(files, path, options),
         _ => Err(LoadError::Format { path: path.into() }),
     }
 }

@@ -5,12 +5,11 @@
 //! smooth across them. A corner is shared where faces give the same position, texture coordinate and
 //! normal.
 
-use super::MeshError;
+use super::{Files, MeshError};
 use crate::build::Mesh;
 use glam::{Vec2, Vec3};
 use std::collections::HashMap;
-use std::fs::File;
-use std::io::{self, BufRead, BufReader};
+use std::io::{self, BufRead};
 use std::path::Path;
 use std::string::{String, ToString};
 use std::vec::Vec;
@@ -19,8 +18,8 @@ use std::vec::Vec;
 ///
 /// # Errors
 /// The outer error is about the file, the inner one about what is in it.
-pub(super) fn read(path: &Path) -> io::Result<Result<Mesh, MeshError>> {
-    let mut reader = BufReader::new(File::open(path)?);
+pub(super) fn read(files: &Files, path: &Path) -> io::Result<Result<Mesh, MeshError>> {
+    let (mut reader, _) = files.open(path)?;
     let (mut obj, mut line) = (Obj::default(), Vec::new());
     while reader.read_until(b'\n', &mut line)? > 0 {
         obj.line += 1;

@@ -12,10 +12,8 @@ fn main() -> ExitCode {
         eprintln!("usage: halflight-bindgen IN.wasm OUT_FOLDER");
         return ExitCode::from(2);
     };
-    let written = wasm_bindgen_cli_support::Bindgen::new()
-        .input_path(Path::new(input))
-        .web(true)
-        .and_then(|tool| {
+    let written =
+        wasm_bindgen_cli_support::Bindgen::new().input_path(Path::new(input)).web(true).and_then(|tool| {
             tool.typescript(true)
                 .out_name("halflight")
                 .remove_name_section(true)

@@ -3,10 +3,10 @@
 use super::{ImageError, check_size};
 use crate::Rgb;
 use crate::build::Image;
+use crate::load::Files;
 use ::exr::meta::MetaData;
 use ::exr::prelude::{ReadChannels, ReadLayers, ReadSpecificChannel, SpecificChannels, Vec2, WritableImage};
-use std::fs::File;
-use std::io::{BufReader, Read, Seek, Write};
+use std::io::{Read, Seek, Write};
 use std::path::Path;
 use std::vec::Vec;
 
@@ -14,15 +14,15 @@ use std::vec::Vec;
 const MAGIC: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
 
 /// True when the file starts as an OpenEXR file does.
-pub(super) fn is_exr(path: &Path) -> Result<bool, ImageError> {
+pub(super) fn is_exr(files: &Files, path: &Path) -> Result<bool, ImageError> {
     let mut start = Vec::new();
-    File::open(path)?.take(MAGIC.len() as u64).read_to_end(&mut start)?;
+    files.open(path)?.0.take(MAGIC.len() as u64).read_to_end(&mut start)?;
     Ok(start == MAGIC)
 }
 
 /// Reads the first layer that has red, green and blue, or luminance alone.
-pub(super) fn read(path: &Path) -> Result<Image, ImageError> {
-    let open = || File::open(path).map(BufReader::new);
+pub(super) fn read(files: &Files, path: &Path) -> Result<Image, ImageError> {
+    let open = || files.open(path).map(|(file, _)| file);
     let headers = MetaData::read_from_buffered(open()?, false)?.headers;
     headers.iter().try_for_each(|h| check_size(h.layer_size.0 as u32, h.layer_size.1 as u32))?;
     let has =

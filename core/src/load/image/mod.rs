@@ -7,13 +7,13 @@ mod texels;
 pub use error::ImageError;
 pub use exr::write_exr;
 pub use texels::read_texels;
+pub(super) use texels::read_texels_from;
 
 use crate::Rgb;
 use crate::build::Image;
+use crate::load::Files;
 use crate::num;
 use ::image::{DynamicImage, ImageReader, Limits};
-use std::fs::File;
-use std::io::BufReader;
 use std::path::Path;
 use std::vec::Vec;
 
@@ -42,17 +42,25 @@ pub const MAX_TEXELS: u64 = 1 << 28;
 /// # Errors
 /// When the file cannot be read, is none of these, is malformed, or has more than [`MAX_TEXELS`].
 pub fn read_image(path: &Path, encoding: Encoding) -> Result<Image, ImageError> {
-    if exr::is_exr(path)? {
-        return exr::read(path);
+    read_image_from(&Files::on_disk(), path, encoding)
+}
+
+/// Reads a picture as [`read_image`] does, from files wherever they are.
+///
+/// # Errors
+/// As [`read_image`].
+pub fn read_image_from(files: &Files, path: &Path, encoding: Encoding) -> Result<Image, ImageError> {
+    if exr::is_exr(files, path)? {
+        return exr::read(files, path);
     }
-    let image = decoded(path)?;
+    let image = decoded(files, path)?;
     Ok(Image { width: image.width(), height: image.height(), texels: texels(&image, encoding) })
 }
 
 /// The picture as the file has it.
-fn decoded(path: &Path) -> Result<DynamicImage, ImageError> {
+fn decoded(files: &Files, path: &Path) -> Result<DynamicImage, ImageError> {
     // The bytes decide, and not the name: the name would choose a reader that finds something else wrong.
-    let open = || ImageReader::new(BufReader::new(File::open(path)?)).with_guessed_format();
+    let open = || ImageReader::new(files.open(path)?.0).with_guessed_format();
     let mut reader = open()?;
     let mut limits = Limits::no_limits();
     limits.max_alloc = Some(MAX_TEXELS * 12);

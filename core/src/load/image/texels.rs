@@ -2,6 +2,7 @@
 
 use super::{Encoding, ImageError, decoded, exr, texels};
 use crate::build::TexelBuffer;
+use crate::load::Files;
 use ::image::DynamicImage;
 use std::path::Path;
 
@@ -11,11 +12,20 @@ use std::path::Path;
 /// # Errors
 /// As [`super::read_image`].
 pub fn read_texels(path: &Path, encoding: Encoding) -> Result<(u32, u32, TexelBuffer), ImageError> {
-    if exr::is_exr(path)? {
-        let image = exr::read(path)?;
+    read_texels_from(&Files::on_disk(), path, encoding)
+}
+
+/// The same from files wherever they are.
+pub(in crate::load) fn read_texels_from(
+    files: &Files,
+    path: &Path,
+    encoding: Encoding,
+) -> Result<(u32, u32, TexelBuffer), ImageError> {
+    if exr::is_exr(files, path)? {
+        let image = exr::read(files, path)?;
         return Ok((image.width, image.height, TexelBuffer::Float(image.texels)));
     }
-    let image = decoded(path)?;
+    let image = decoded(files, path)?;
     let buffer = match &image {
         DynamicImage::ImageLuma8(_)
         | DynamicImage::ImageLumaA8(_)

@@ -73,7 +73,7 @@ impl<'d> Context<'d> {
 
     /// The file that an element names.
     pub(super) fn find(&self, element: &Element, name: &str) -> PathBuf {
-        find(element, name, &self.document.search)
+        find(&self.document.files, element, name, &self.document.search)
     }
 
     pub(super) fn into_warnings(self) -> Vec<Warning> {

@@ -1,15 +1,15 @@
 //! From files to one tree: parameters put in, includes opened.
 
 use super::element::Element;
-use crate::load::{LoadError, LoadOptions, Position, Problem, Warning};
+use crate::load::{Files, LoadError, LoadOptions, Position, Problem, Warning};
 use std::borrow::ToOwned;
 use std::boxed::Box;
 use std::collections::BTreeMap;
+use std::format;
 use std::path::{Path, PathBuf};
 use std::string::{String, ToString};
 use std::sync::Arc;
 use std::vec::Vec;
-use std::{format, fs};
 
 /// How deeply files may include one another.
 pub(in crate::load) const MAX_INCLUDE_DEPTH: usize = 32;
@@ -38,28 +38,31 @@ pub(super) struct Document {
     pub(super) aliases: Vec<(String, String)>,
     /// Folders in which files are looked for, besides that of the file that names them.
     pub(super) search: Vec<PathBuf>,
+    /// Where they are looked for.
+    pub(super) files: Files,
     parameters: BTreeMap<String, Parameter>,
 }
 
 impl Document {
     /// Reads a file and what it includes.
-    pub(super) fn read(path: &Path, options: &LoadOptions) -> Result<Self, LoadError> {
+    pub(super) fn read(files: &Files, path: &Path, options: &LoadOptions) -> Result<Self, LoadError> {
         let mut reader = Reader {
             parameters: defines(options)?,
             aliases: Vec::new(),
             search: Vec::new(),
+            files: files.clone(),
             open: Vec::new(),
             elements: 0,
             includes: 0,
         };
         let text =
-            fs::read(path).map_err(|source| LoadError::Unreadable { path: path.to_owned(), source })?;
+            files.read(path).map_err(|source| LoadError::Unreadable { path: path.to_owned(), source })?;
         let root = reader.file(path, &text)?;
         if root.tag != "scene" {
             return Err(root.error(Problem::unknown("root element", &root.tag, &["scene"])));
         }
-        let Reader { parameters, aliases, search, .. } = reader;
-        Ok(Self { root, aliases, search, parameters })
+        let Reader { parameters, aliases, search, files, .. } = reader;
+        Ok(Self { root, aliases, search, files, parameters })
     }
 
     /// One warning for each parameter from outside that no attribute uses.
@@ -93,6 +96,7 @@ struct Reader {
     parameters: BTreeMap<String, Parameter>,
     aliases: Vec<(String, String)>,
     search: Vec<PathBuf>,
+    files: Files,
     /// Files being read, outermost first.
     open: Vec<PathBuf>,
     elements: usize,
@@ -137,7 +141,7 @@ impl Reader {
                 what: e.to_string(),
             }
         })?;
-        self.open.push(path.canonicalize().unwrap_or_else(|_| path.to_owned()));
+        self.open.push(self.files.canonical(path).unwrap_or_else(|| path.to_owned()));
         let root = self.element(&source, tree.root_element(), 0)?;
         self.open.pop();
         check_version(&root)?;
@@ -261,15 +265,17 @@ impl Reader {
         if self.includes > MAX_INCLUDES {
             return Err(element.error(Problem::TooLarge { what: "included files", limit: MAX_INCLUDES }));
         }
-        let path = find(element, element.required("filename")?, &self.search);
+        let path = find(&self.files, element, element.required("filename")?, &self.search);
         if self.open.len() > MAX_INCLUDE_DEPTH {
             return Err(element.error(Problem::Include { path, cycle: false }));
         }
-        if path.canonicalize().is_ok_and(|p| self.open.contains(&p)) {
+        if self.files.canonical(&path).is_some_and(|p| self.open.contains(&p)) {
             return Err(element.error(Problem::Include { path, cycle: true }));
         }
-        let text =
-            fs::read(&path).map_err(|source| element.error(Problem::File { path: path.clone(), source }))?;
+        let text = self
+            .files
+            .read(&path)
+            .map_err(|source| element.error(Problem::File { path: path.clone(), source }))?;
         let root = self.file(&path, &text)?;
         if root.tag == "scene" {
             parent.children.extend(root.children);
@@ -307,10 +313,10 @@ fn beside(element: &Element, name: &str) -> PathBuf {
 }
 
 /// The file meant by a name: beside the file that names it, or in one of the folders.
-pub(super) fn find(element: &Element, name: &str, search: &[PathBuf]) -> PathBuf {
+pub(super) fn find(files: &Files, element: &Element, name: &str, search: &[PathBuf]) -> PathBuf {
     let near = beside(element, name);
-    if near.exists() {
+    if files.has(&near) {
         return near;
     }
-    search.iter().map(|folder| folder.join(name)).find(|p| p.exists()).unwrap_or(near)
+    search.iter().map(|folder| folder.join(name)).find(|p| files.has(p)).unwrap_or(near)
 }

@@ -8,7 +8,7 @@ use crate::build::{Emission, EnvironmentDescription, Geometry};
 use crate::light::{
     AnyLight, Constant, Directional, EnvironmentDensity, EnvironmentMap, LightError, Point, Portal, Spot,
 };
-use crate::load::{Encoding, LoadError, Problem, read_image};
+use crate::load::{Encoding, LoadError, Problem, read_image_from};
 use crate::shape::AnyShape;
 use glam::{DMat3, DMat4, DVec3, Mat3};
 use std::borrow::ToOwned;
@@ -111,7 +111,7 @@ fn environment(
     properties.finish(context)?;
     let path = context.find(named, name);
     let refused = |problem| named.error(problem);
-    let mut image = read_image(&path, Encoding::Srgb)
+    let mut image = read_image_from(&context.document.files, &path, Encoding::Srgb)
         .map_err(|source| refused(Problem::Image { path: path.clone(), source }))?;
     let (width, height) = (image.width, image.height);
     if width.abs_diff(2 * height) > height / 8 {

@@ -20,14 +20,14 @@ mod value;
 
 pub(super) use document::MAX_INCLUDE_DEPTH;
 
-use super::{LoadError, LoadOptions, Loaded};
+use super::{Files, LoadError, LoadOptions, Loaded};
 use context::Context;
 use document::Document;
 use std::path::Path;
 
 /// Reads a scene and the files that it refers to.
-pub(super) fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, LoadError> {
-    let document = Document::read(path, options)?;
+pub(super) fn load(files: &Files, path: &Path, options: &LoadOptions) -> Result<Loaded, LoadError> {
+    let document = Document::read(files, path, options)?;
     let mut context = Context::new(&document, options.lenient)?;
     let description = scene::read(&mut context, path)?;
     let mut warnings = context.into_warnings();

@@ -88,11 +88,11 @@ fn mesh_file(
     // Rows of OBJ textures count from the bottom.
     let flip_uvs = !is_serialized && properties.flag_or("flip_tex_coords", kind == "obj")?;
     let face_normals = properties.flag("face_normals")?;
-    let path = context.find(element, name);
+    let (files, path) = (&context.document.files, context.find(element, name));
     let read = match kind {
-        "obj" => obj::read(&path),
-        "serialized" => serialized::read(&path, index),
-        _ => ply::read(&path),
+        "obj" => obj::read(files, &path),
+        "serialized" => serialized::read(files, &path, index),
+        _ => ply::read(files, &path),
     };
     let mut mesh = read
         .map_err(|source| element.error(Problem::File { path: path.clone(), source }))?

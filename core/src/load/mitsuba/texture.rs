@@ -6,7 +6,8 @@ use super::properties::Properties;
 use crate::Rgb;
 use crate::bsdf::GgxConductor;
 use crate::build::{TexelBuffer, TextureDescription};
-use crate::load::{Encoding, LoadError, Problem, read_texels};
+use crate::load::image::read_texels_from;
+use crate::load::{Encoding, LoadError, Problem};
 use crate::texture::{Interpolation, Kind, Pattern, TextureError, UvTransform, Wrap};
 use std::borrow::ToOwned;
 use std::sync::Arc;
@@ -169,7 +170,7 @@ fn picture(
         return Ok(known.clone());
     }
     let encoding = if raw { Encoding::Linear } else { Encoding::Srgb };
-    let (width, height, texels) = read_texels(&key.0, encoding)
+    let (width, height, texels) = read_texels_from(&context.document.files, &key.0, encoding)
         .map_err(|source| element.error(Problem::Image { path: key.0.clone(), source }))?;
     let read = (width, height, Arc::new(texels));
     context.pictures.insert(key, read.clone());

@@ -2,13 +2,12 @@
 
 mod element;
 
-use super::MeshError;
+use super::{Files, MeshError};
 use crate::build::Mesh;
 use element::{Face, Ignored, Vertex};
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
 use ply_rs_bw::ply::{ElementDef, Encoding, Header, PropertyAccess, PropertyType};
-use std::fs::File;
-use std::io::{self, BufRead, BufReader};
+use std::io::{self, BufRead};
 use std::path::Path;
 use std::string::{String, ToString};
 
@@ -16,10 +15,9 @@ use std::string::{String, ToString};
 ///
 /// # Errors
 /// The outer error is about the file, the inner one about what is in it.
-pub(super) fn read(path: &Path) -> io::Result<Result<Mesh, MeshError>> {
-    let file = File::open(path)?;
-    let bytes = file.metadata()?.len();
-    Ok(parse(BufReader::with_capacity(1 << 16, file), bytes))
+pub(super) fn read(files: &Files, path: &Path) -> io::Result<Result<Mesh, MeshError>> {
+    let (file, bytes) = files.open(path)?;
+    Ok(parse(file, bytes))
 }
 
 /// Reads a mesh from `bytes` bytes.

@@ -4,12 +4,11 @@
 //! Source: the format's description in the documentation of Mitsuba 3's plugin `serialized`. Differs:
 //! names and vertex colours are skipped, and a mesh has at most 2³² corners.
 
-use super::MeshError;
+use super::{Files, MeshError};
 use crate::build::Mesh;
 use flate2::bufread::ZlibDecoder;
 use glam::{Vec2, Vec3};
 use std::format;
-use std::fs::File;
 use std::io::{self, BufReader, ErrorKind, Read, Seek, SeekFrom};
 use std::path::Path;
 use std::string::{String, ToString};
@@ -38,10 +37,9 @@ const MOST_RESERVED: u64 = 1 << 20;
 ///
 /// # Errors
 /// The outer error is about the file, the inner one about what is in it.
-pub(super) fn read(path: &Path, index: u32) -> io::Result<Result<Mesh, MeshError>> {
-    let file = File::open(path)?;
-    let bytes = file.metadata()?.len();
-    Ok(parse(BufReader::new(file), bytes, index))
+pub(super) fn read(files: &Files, path: &Path, index: u32) -> io::Result<Result<Mesh, MeshError>> {
+    let (file, bytes) = files.open(path)?;
+    Ok(parse(file, bytes, index))
 }
 
 /// Reads a mesh from a file of `bytes` bytes.

@@ -1,0 +1,157 @@
+//! Where the files of a scene are: on the disk, or in memory.
+
+use std::collections::BTreeMap;
+use std::fs::{self, File};
+use std::io::{self, BufReader, Cursor, ErrorKind, Read, Seek, SeekFrom};
+use std::path::{Component, Path, PathBuf};
+use std::sync::Arc;
+use std::vec::Vec;
+
+/// Where the files of a scene are.
+#[derive(Debug, Clone, Default)]
+pub struct Files {
+    /// By path; `None` is the disk.
+    memory: Option<Arc<BTreeMap<PathBuf, Arc<[u8]>>>>,
+}
+
+impl Files {
+    /// Those of the disk.
+    #[must_use]
+    pub const fn on_disk() -> Self {
+        Self { memory: None }
+    }
+
+    /// Some that are in memory, by path, and no others. A file is also found by its name alone, where
+    /// only one has it: who was handed a few files need not know their folders.
+    #[must_use]
+    pub fn in_memory(files: impl IntoIterator<Item = (PathBuf, Vec<u8>)>) -> Self {
+        let files = files.into_iter().map(|(path, bytes)| (plain(&path), Arc::from(bytes)));
+        Self { memory: Some(Arc::new(files.collect())) }
+    }
+
+    /// Opens a file; with its length in bytes.
+    pub(super) fn open(&self, path: &Path) -> io::Result<(BufReader<Opened>, u64)> {
+        let (file, bytes) = match &self.memory {
+            None => {
+                let file = File::open(path)?;
+                let bytes = file.metadata()?.len();
+                (Opened::Disk(file), bytes)
+            }
+            Some(files) => {
+                let bytes = find(files, path).ok_or_else(not_given)?;
+                (Opened::Memory(Cursor::new(bytes.clone())), bytes.len() as u64)
+            }
+        };
+        Ok((BufReader::with_capacity(1 << 16, file), bytes))
+    }
+
+    /// All bytes of a file.
+    pub(super) fn read(&self, path: &Path) -> io::Result<Vec<u8>> {
+        match &self.memory {
+            None => fs::read(path),
+            Some(files) => find(files, path).map(|bytes| bytes.to_vec()).ok_or_else(not_given),
+        }
+    }
+
+    /// True when there is such a file.
+    pub(super) fn has(&self, path: &Path) -> bool {
+        match &self.memory {
+            None => path.exists(),
+            Some(files) => find(files, path).is_some(),
+        }
+    }
+
+    /// The one path of a file that may have several; `None` when there is no such file.
+    pub(super) fn canonical(&self, path: &Path) -> Option<PathBuf> {
+        match &self.memory {
+            None => path.canonicalize().ok(),
+            Some(files) => find(files, path).map(|_| plain(path)),
+        }
+    }
+}
+
+/// A file that is open.
+pub(super) enum Opened {
+    /// On the disk.
+    Disk(File),
+    /// In memory.
+    Memory(Cursor<Arc<[u8]>>),
+}
+
+impl Read for Opened {
+    fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
+        match self {
+            Self::Disk(file) => file.read(into),
+            Self::Memory(bytes) => bytes.read(into),
+        }
+    }
+}
+
+impl Seek for Opened {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        match self {
+            Self::Disk(file) => file.seek(to),
+            Self::Memory(bytes) => bytes.seek(to),
+        }
+    }
+}
+
+fn not_given() -> io::Error {
+    io::Error::new(ErrorKind::NotFound, "the file is not among those that were given")
+}
+
+/// A path without `.`, `..` and root.
+fn plain(path: &Path) -> PathBuf {
+    let mut plain = PathBuf::new();
+    for part in path.components() {
+        match part {
+            Component::Normal(name) => plain.push(name),
+            Component::ParentDir => {
+                plain.pop();
+            }
+            Component::CurDir | Component::RootDir | Component::Prefix(_) => {}
+        }
+    }
+    plain
+}
+
+fn find<'f>(files: &'f BTreeMap<PathBuf, Arc<[u8]>>, path: &Path) -> Option<&'f Arc<[u8]>> {
+    let path = plain(path);
+    files.get(&path).or_else(|| {
+        let mut named = files.iter().filter(|(other, _)| other.file_name() == path.file_name());
+        let (_, bytes) = named.next()?;
+        named.next().is_none().then_some(bytes)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::vec;
+
+    fn files(names: &[&str]) -> Files {
+        Files::in_memory(names.iter().map(|name| (PathBuf::from(name), name.as_bytes().to_vec())))
+    }
+
+    #[test]
+    fn a_file_is_found_by_its_path_or_by_a_name_that_only_one_has() {
+        let files = files(&["a/x.ply", "b/x.ply", "b/y.ply", "top.xml"]);
+        let read = |path: &str| files.read(Path::new(path)).ok();
+        assert_eq!(read("a/./x.ply"), Some(b"a/x.ply".to_vec()));
+        assert_eq!(read("/b/c/../x.ply"), Some(b"b/x.ply".to_vec()));
+        assert_eq!(read("elsewhere/y.ply"), Some(b"b/y.ply".to_vec()));
+        assert_eq!((read("x.ply"), read("z.ply"), read("")), (None, None, None));
+        assert!(files.has(Path::new("../top.xml")) && !files.has(Path::new("Top.xml")));
+        assert_eq!(files.canonical(Path::new("a/../top.xml")), Some(PathBuf::from("top.xml")));
+    }
+
+    #[test]
+    fn what_is_open_can_be_read_and_sought() {
+        let (mut file, bytes) = files(&["name"]).open(Path::new("name")).unwrap();
+        assert_eq!(bytes, 4);
+        file.seek(SeekFrom::End(-2)).unwrap();
+        let mut rest = vec![];
+        file.read_to_end(&mut rest).unwrap();
+        assert_eq!(rest, b"me");
+    }
+}

@@ -1,0 +1,391 @@
+// The page's state and what follows from each change of it.
+
+import { Orbit } from './camera.js';
+import { Screen } from './canvas.js';
+import { legend, rendered } from './display.js';
+import { Renderer } from './engine/renderer.js';
+import { Overlay } from './overlay.js';
+import { CHOICES, encode } from './state.js';
+import { aimed } from './ui/light.js';
+import { chart } from './ui/chart.js';
+
+/** Samples of a probe: at once, and when the picture is still. */
+const PROBE = [64, 4096];
+/** Most columns of a picture that fits the page. */
+const COLUMNS = 960;
+
+const byId = (id) => document.getElementById(id);
+
+export class App {
+  /** Set by main.js: { light, show, sampling, probe, status }. */
+  panels = {};
+  lights = [];
+  authored = [];
+  facts = { radius: 1, lights: 0, environments: 0, width: 3, height: 2, name: '', warnings: [] };
+  source = null;
+  orbit = null;
+
+  #pool;
+  #edits = new Map();
+  #sending = false;
+  #lightsMoved = false;
+  #cameraMoved = false;
+  #probed = null;
+  #probe = null;
+  #loading = 0;
+
+  constructor(pool, state) {
+    this.#pool = pool;
+    this.state = state;
+    this.canvas = byId('canvas');
+    this.screen = new Screen(this.canvas);
+    this.overlay = new Overlay(byId('overlay'), byId('handle'));
+    this.renderer = new Renderer(pool);
+    this.renderer.target = state.target / 100;
+    this.renderer.equal = state.equal;
+    const sides = () => this.renderer.films.length;
+    this.renderer.addEventListener('tile', ({ detail: { film, side, tile } }) => this.screen.tile(film, side, sides(), tile));
+    this.renderer.addEventListener('frame', ({ detail }) => { this.screen.frame(detail.films); this.panels.status.show(); });
+    this.renderer.addEventListener('pass', () => { this.#passed(); });
+    this.renderer.addEventListener('still', () => this.#still());
+    this.renderer.addEventListener('idle', () => this.panels.status.show());
+    new ResizeObserver(() => this.fit()).observe(byId('frame'));
+  }
+
+  get sides() {
+    return this.state.compare ? 2 : 1;
+  }
+
+  get size() {
+    return [this.canvas.width, this.canvas.height];
+  }
+
+  say(text, bad = false) {
+    const message = byId('message');
+    message.textContent = text;
+    message.classList.toggle('bad', bad);
+  }
+
+  // Scenes
+
+  /** Shows a scene: { builtin } or { name, files }. The state's camera, lights and choices are applied. */
+  async load(source) {
+    const loading = ++this.#loading;
+    const author = await this.#pool.all({ type: 'load', side: 0, source, edits: [] });
+    if (loading !== this.#loading) return;
+    this.source = source;
+    Object.assign(this, { facts: author.facts, authored: author.authored, lights: author.lights });
+    this.#author = author.view;
+    this.closeProbe();
+    const seen = await this.#pool.ask({ type: 'probe', side: 0, size: [3, 2], x: 1, y: 1, samples: 0 });
+    this.#distance = seen.probe?.distance ?? this.facts.radius;
+    this.orbit = new Orbit(this.#author, this.#distance);
+    if (this.state.camera) this.orbit.restore(this.state.camera);
+    this.#cameraMoved = Boolean(this.state.camera);
+    this.state.light = Math.min(this.state.light, Math.max(0, this.lights.length - 1));
+    this.canvas.setAttribute('aria-label', `${this.facts.name}: ${this.facts.triangles} triangles, ${this.facts.lights} lights`);
+    this.#resize();
+    await this.#apply();
+    this.say(this.facts.warnings.join('\n'));
+  }
+
+  #author;
+  #distance = 1;
+
+  /** Tells the workers all of the state, both sides of it, and begins anew. */
+  async #apply() {
+    const edits = this.#all();
+    if (this.state.compare) {
+      await this.#pool.all({ type: 'load', side: 1, source: this.source, edits: [...edits, ...this.#choices(1)] });
+    } else {
+      await this.#pool.all({ type: 'close', side: 1 });
+    }
+    const { lights } = await this.#pool.all({ type: 'change', side: 0, edits: [...edits, ...this.#choices(0)] });
+    this.lights = lights;
+    this.renderer.restart(...this.size, this.sides);
+    this.refresh();
+  }
+
+  #all() {
+    const edits = Object.keys(this.state.lights).map((index) => this.#lightEdit(Number(index)));
+    if (this.#cameraMoved) edits.unshift(this.#lookEdit());
+    return [...edits, ['settle']];
+  }
+
+  #choices(side) {
+    const chosen = CHOICES.map(({ name }) => ['choose', name, this.state.sides[side][name]]);
+    return [...chosen, ['choose', 'seed', String(this.state.seed)], ['choose', 'show', rendered(this.state.show)]];
+  }
+
+  #lookEdit() {
+    const { origin, target, up, halfWidth } = this.orbit;
+    return ['look', Float32Array.from(origin), Float32Array.from(target), Float32Array.from(up), halfWidth];
+  }
+
+  #lightEdit(index) {
+    const { kind, position, direction, size, strength } = this.state.lights[index];
+    return ['light', index, kind, ...[position, direction, size, strength].map((v) => Float32Array.from(v))];
+  }
+
+  // Changes
+
+  /** Sends changes, the latest of each kind, and follows them with quick frames. */
+  async #send(key, edit) {
+    this.#edits.set(key, edit);
+    if (this.#sending) return;
+    this.#sending = true;
+    while (this.#edits.size > 0) {
+      const edits = [...this.#edits.values()];
+      this.#edits.clear();
+      try {
+        const answers = [];
+        for (let side = 0; side < this.sides; side++) answers.push(this.#pool.all({ type: 'change', side, edits }));
+        this.lights = (await Promise.all(answers))[0].lights;
+        this.say('');
+      } catch (error) {
+        this.say(error.message, true);
+      }
+      this.renderer.move(...this.size, this.sides);
+      this.draw();
+      this.#again();
+    }
+    this.#sending = false;
+  }
+
+  cameraMoved() {
+    this.#cameraMoved = true;
+    this.state.camera = this.orbit.save();
+    this.draw();
+    this.#send('look', this.#lookEdit());
+    this.keep();
+  }
+
+  home() {
+    this.orbit = new Orbit(this.#author, this.#distance);
+    this.state.camera = null;
+    this.#cameraMoved = false;
+    this.reload();
+  }
+
+  /** The scene again, with the state as it is. */
+  reload() {
+    return this.load(this.source).catch((error) => this.say(error.message, true));
+  }
+
+  chooseLight(index) {
+    this.state.light = index;
+    this.panels.light.show();
+    this.draw();
+    this.keep();
+  }
+
+  /** The chosen light as it is, or is to be. */
+  currentLight() {
+    const { light, lights } = this.state;
+    const shown = this.lights[light];
+    const list = ({ kind, position, direction, size, strength }) => ({ kind, position: [...position],
+      direction: [...direction], size: [...size], strength: [...strength] });
+    return list(lights[light] ?? shown);
+  }
+
+  setLight(light) {
+    const index = this.state.light;
+    this.state.lights[index] = light;
+    this.#lightsMoved = true;
+    this.#send(`light ${index}`, this.#lightEdit(index));
+    this.keep();
+  }
+
+  moveLight(position) {
+    const light = this.currentLight();
+    const flat = light.kind === 'rectangle' || light.kind === 'disk';
+    const direction = flat && this.state.aim ? aimed(light, position, this.orbit.target) : light.direction;
+    this.setLight({ ...light, position, direction });
+  }
+
+  setAim(aim) {
+    this.state.aim = aim;
+    this.keep();
+  }
+
+  released() {
+    this.renderer.release();
+  }
+
+  /** Nothing moves any more: the tables are built for the lights as they are. */
+  #still() {
+    if (this.#lightsMoved) {
+      this.#lightsMoved = false;
+      for (let side = 0; side < this.sides; side++) this.#pool.all({ type: 'change', side, edits: [['settle']] });
+    }
+    this.#again(1);
+  }
+
+  // What is shown
+
+  setShow(show) {
+    const before = rendered(this.state.show);
+    this.state.show = show;
+    this.keep();
+    if (rendered(show) === before) this.refresh();
+    else this.#apply();
+  }
+
+  setExposure(exposure) {
+    this.state.exposure = exposure;
+    this.refresh();
+    this.keep();
+  }
+
+  setTarget(target) {
+    this.state.target = target;
+    this.renderer.target = target / 100;
+    this.renderer.pause(this.renderer.paused);
+    this.panels.status.show();
+    this.keep();
+  }
+
+  setWidth(width) {
+    this.state.width = width;
+    this.fit();
+    this.keep();
+  }
+
+  // Sampling
+
+  setChoice(side, name, value) {
+    this.state.sides[side][name] = value;
+    this.keep();
+    return this.#apply();
+  }
+
+  compare(on) {
+    this.state.compare = on;
+    this.keep();
+    this.panels.sampling.show();
+    return this.#apply();
+  }
+
+  setEqual(equal) {
+    this.state.equal = equal;
+    this.renderer.equal = equal;
+    this.keep();
+    this.renderer.restart(...this.size, this.sides);
+  }
+
+  setSplit(split) {
+    this.state.split = Math.max(0, Math.min(1, split));
+    this.refresh();
+    this.keep();
+  }
+
+  // The probe
+
+  /** Looks at a place of the picture: x and y from 0 to 1. */
+  probeAt(x, y) {
+    this.#probed = [Math.max(0, Math.min(0.9999, x)), Math.max(0, Math.min(0.9999, y))];
+    return this.#again(1);
+  }
+
+  async #again(level = 0) {
+    if (!this.#probed) return;
+    const [place, size] = [this.#probed, this.size];
+    const [x, y] = [Math.floor(place[0] * size[0]), Math.floor(place[1] * size[1])];
+    const { probe } = await this.#pool.ask({ type: 'probe', side: 0, size, x, y, samples: PROBE[level] });
+    if (place !== this.#probed) return;
+    this.#probe = probe;
+    const names = { auto: 'auto', area: 'area', 'solid-angle': 'solid angle', projected: 'projected' };
+    this.panels.probe.show(probe, names[this.state.sides[0].lights]);
+    this.draw();
+    if (!probe) this.say('There is no surface at this point.');
+  }
+
+  get probe() {
+    return this.#probe;
+  }
+
+  closeProbe() {
+    this.#probed = this.#probe = null;
+    this.panels.probe.show(null);
+    this.draw();
+  }
+
+  // The picture's place in the page
+
+  togglePause() {
+    this.renderer.pause(!this.renderer.paused);
+    this.panels.status.show();
+  }
+
+  #columns(css) {
+    if (this.state.width > 0) return this.state.width;
+    return Math.max(160, Math.min(COLUMNS, Math.round(css * Math.min(devicePixelRatio, 2))));
+  }
+
+  /** Puts the picture into its frame; true when its pixels have changed. */
+  #resize() {
+    const frame = byId('frame');
+    const aspect = this.facts.width / this.facts.height;
+    if (matchMedia('(max-width: 760px)').matches) frame.style.height = `${Math.min(frame.clientWidth / aspect, innerHeight * 0.5)}px`;
+    else frame.style.height = '';
+    const [w, h] = [frame.clientWidth, frame.clientHeight];
+    const width = Math.max(1, Math.floor(Math.min(w, h * aspect)));
+    const height = Math.max(1, Math.round(width / aspect));
+    Object.assign(this.canvas.style, { width: `${width}px`, height: `${height}px` });
+    const [left, top] = [(w - width) / 2, (h - height) / 2];
+    this.overlay.place(left, top, width, height);
+    this.box = { left, top, width, height };
+    const columns = this.#columns(width);
+    const rows = Math.max(1, Math.round(columns / aspect));
+    const changed = columns !== this.canvas.width || rows !== this.canvas.height;
+    this.screen.resize(columns, rows);
+    return changed;
+  }
+
+  fit() {
+    if (!this.orbit) return;
+    if (this.#resize()) this.renderer.restart(...this.size, this.sides);
+    this.refresh();
+  }
+
+  /** Draws what lies over the picture. */
+  draw() {
+    if (this.orbit) this.overlay.draw({ orbit: this.orbit, light: this.lights[this.state.light], probe: this.#probe });
+  }
+
+  #passed() {
+    this.panels.status.show();
+    if (this.state.compare) chart(byId('chart'), this.renderer.films.map((film) => film.history));
+  }
+
+  /** Shows everything that does not come from the renderer. */
+  refresh() {
+    const { show, exposure, compare, split } = this.state;
+    this.screen.style = { show, exposure, split };
+    this.screen.all(this.renderer.films);
+    const scale = legend(show);
+    const box = byId('legend');
+    box.hidden = !scale;
+    Object.assign(box.style, { left: `${this.box.left + 10}px`, top: `${this.box.top + 10}px` });
+    if (scale) {
+      box.querySelector('.ramp').style.background = scale.css;
+      ['low', 'mid', 'high'].forEach((name, i) => { box.querySelector(`.${name}`).textContent = scale.labels[i]; });
+    }
+    byId('chart').hidden = !compare;
+    this.panels.status.show();
+    this.draw();
+  }
+
+  /** What a link would keep goes into the address. */
+  keep() {
+    clearTimeout(this.#keeping);
+    this.#keeping = setTimeout(() => history.replaceState(null, '', this.link()), 250);
+  }
+
+  #keeping;
+
+  link() {
+    const text = encode(this.state);
+    return `${location.pathname}${location.search}${text ? `#${text}` : ''}`;
+  }
+}
