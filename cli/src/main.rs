@@ -6,6 +6,7 @@ mod args;
 mod commands;
 mod driver;
 mod failure;
+mod goal;
 mod interrupt;
 mod number;
 mod output;
@@ -13,6 +14,7 @@ mod picture;
 mod plan;
 mod progress;
 mod report;
+mod save;
 mod scene;
 mod terminal;
 

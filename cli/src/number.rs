@@ -81,6 +81,16 @@ pub(crate) fn percent(fraction: f64) -> String {
     format!("{} %", rounded(100.0 * fraction, 2))
 }
 
+/// `0.98 % ± 0.03`: both with as many decimals.
+pub(crate) fn percent_within(fraction: f64, interval: f64) -> String {
+    let value = rounded(100.0 * fraction, 2);
+    let decimals = value.split_once('.').map_or(0, |(_, decimals)| decimals.len());
+    if value.contains(['e', '∞', 'N']) {
+        return format!("{value} % ± {}", rounded(100.0 * interval, 2));
+    }
+    format!("{value} % ± {:.decimals$}", 100.0 * interval)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -115,6 +125,10 @@ mod tests {
         assert_eq!(percent(0.009_812), "0.98 %");
         assert_eq!(percent(0.1234), "12 %");
         assert_eq!(percent(2.5), "250 %");
+        assert_eq!(percent_within(0.009_812, 0.000_31), "0.98 % ± 0.03");
+        assert_eq!(percent_within(0.1234, 0.019), "12 % ± 2");
+        assert_eq!(percent_within(0.0, 0.0), "0 % ± 0");
+        assert_eq!(percent_within(1e-7, 2e-8), "1.0e-5 % ± 2.0e-6");
     }
 
     #[test]

@@ -1,11 +1,11 @@
 //! What is shown on a terminal while it works; nothing where stderr is no terminal.
 
-use crate::driver::Event;
-use crate::number::{duration, percent};
+use crate::driver::{Event, Goal};
+use crate::number::{duration, percent, significant};
 use console::Term;
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 use std::fmt::Write;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// How often a step that cannot tell how far it is shows that it is alive.
 const TICK: Duration = Duration::from_millis(120);
@@ -40,30 +40,42 @@ impl Drop for Step {
 #[derive(Debug)]
 pub(crate) struct RenderBar {
     bar: ProgressBar,
-    samples_per_pixel: u32,
+    goal: Goal,
+    begin: Instant,
 }
 
+/// Steps of a bar whose goal is not a number of samples.
+const STEPS: u64 = 1000;
+
 impl RenderBar {
-    /// A bar for so many pixels and samples; invisible when `quiet`.
-    pub(crate) fn new(pixels: u64, samples_per_pixel: u32, quiet: bool) -> Self {
-        let bar = if quiet {
-            ProgressBar::hidden()
-        } else {
-            ProgressBar::new(pixels * u64::from(samples_per_pixel))
-        };
+    /// A bar for so many pixels and that goal; invisible when `quiet`.
+    pub(crate) fn new(pixels: u64, goal: Goal, quiet: bool) -> Self {
+        let steps = if let Goal::Samples(samples) = goal { pixels * u64::from(samples) } else { STEPS };
+        let bar = if quiet { ProgressBar::hidden() } else { ProgressBar::new(steps) };
         let template = format!("{{percent:>3}} %  {}{{left}}{{wide_msg}}", graphic());
         bar.set_style(style(&template).progress_chars("██░").with_key("left", left));
-        bar.set_message(message(0, samples_per_pixel, None));
+        bar.set_message(message(0.0, goal, None));
         bar.enable_steady_tick(TICK);
-        Self { bar, samples_per_pixel }
+        Self { bar, goal, begin: Instant::now() }
     }
 
     /// Takes in what has happened.
     pub(crate) fn show(&self, event: Event) {
-        match event {
-            Event::Samples(n) => self.bar.inc(n),
-            Event::Pass { samples, error } => {
-                self.bar.set_message(message(samples, self.samples_per_pixel, error));
+        match (event, self.goal) {
+            (Event::Samples(n), Goal::Samples(_)) => self.bar.inc(n),
+            (Event::Samples(_), Goal::Time { deadline, .. }) => {
+                let all = deadline.saturating_duration_since(self.begin).as_secs_f64().max(1e-9);
+                let done = self.begin.elapsed().as_secs_f64() / all;
+                self.bar.set_position((done.min(1.0) * STEPS as f64) as u64);
+            }
+            (Event::Samples(_), Goal::Error { .. }) => {}
+            (Event::Round { samples, error }, goal) => {
+                self.bar.set_message(message(samples, goal, error));
+                if let (Goal::Error { target, .. }, Some(error)) = (goal, error) {
+                    // Roughly so much of the samples: the error falls with their root, or faster.
+                    let done = (target / error).powf(1.5).min(1.0);
+                    self.bar.set_position((done * STEPS as f64) as u64);
+                }
             }
         }
     }
@@ -85,10 +97,15 @@ fn graphic() -> String {
     }
 }
 
-/// "4 of 64 spp  error 1.8 %".
-fn message(samples: u32, of: u32, error: Option<f64>) -> String {
+/// "4 of 64 spp  error 1.8 %", "23.1 spp  error 1.8 % → 1.0 %".
+fn message(samples: f64, goal: Goal, error: Option<f64>) -> String {
+    let samples = if samples.fract() == 0.0 { samples.to_string() } else { significant(samples) };
     let error = error.map_or_else(String::new, |e| format!("  error {}", percent(e)));
-    format!("{samples} of {of} spp{error}")
+    match goal {
+        Goal::Samples(of) => format!("{samples} of {of} spp{error}"),
+        Goal::Error { target, .. } => format!("{samples} spp{error} → {}", percent(target)),
+        Goal::Time { .. } => format!("{samples} spp{error}"),
+    }
 }
 
 /// "12 s left  ".

@@ -1,6 +1,7 @@
 //! What is said about a render when it is done.
 
-use crate::number::{counted, duration, percent, with_prefix};
+use crate::number::{counted, duration, percent_within, significant, with_prefix};
+use halflight::estimate::ErrorEstimate;
 use serde_json::{Value, json};
 use std::path::PathBuf;
 
@@ -36,8 +37,12 @@ pub(crate) struct Report {
     pub(crate) lights: u64,
     /// Where the time went.
     pub(crate) seconds: Seconds,
-    /// Estimated relative error; `None` while unknown.
-    pub(crate) error: Option<f64>,
+    /// How good the picture is.
+    pub(crate) error: ErrorEstimate,
+    /// Pixels that have all samples that they may have, and more error than their share.
+    pub(crate) missed: u64,
+    /// True when samples went where the error was.
+    pub(crate) adaptive: bool,
     /// Samples that were no numbers to use.
     pub(crate) rejected: u64,
     /// Stopped by the user before its end.
@@ -59,20 +64,35 @@ impl Report {
         self.samples as f64 / self.seconds.render.max(1e-9)
     }
 
-    /// "64 samples/pixel", or "3 to 4 samples/pixel" after an interrupt.
+    /// Samples per pixel, on average.
+    fn mean_samples(&self) -> f64 {
+        self.samples as f64 / (f64::from(self.size.0) * f64::from(self.size.1))
+    }
+
+    /// "64 samples/pixel", or "37.2 samples/pixel (16 to 512)" where they differ.
     pub(crate) fn samples_per_pixel(&self) -> String {
         match self.samples_per_pixel {
             (1, 1) => "1 sample/pixel".to_owned(),
             (fewest, most) if fewest == most => format!("{most} samples/pixel"),
-            (fewest, most) => format!("{fewest} to {most} samples/pixel"),
+            (fewest, most) => {
+                format!("{} samples/pixel ({fewest} to {most})", significant(self.mean_samples()))
+            }
         }
+    }
+
+    /// "error 0.98 % ± 0.03", and what half of it costs.
+    fn error(&self) -> String {
+        let (Some(error), Some(interval)) = (self.error.relative_error(), self.error.interval()) else {
+            return "error unknown".to_owned();
+        };
+        let half = self.error.cost_of_half();
+        let half = half.map_or_else(String::new, |k| format!("  half the error: {k:.1}× the time"));
+        format!("error {}{half}", percent_within(error, interval))
     }
 
     /// One line for people.
     pub(crate) fn line(&self) -> String {
         let (width, height) = self.size;
-        let error =
-            self.error.map_or_else(|| "error unknown".to_owned(), |e| format!("error {}", percent(e)));
         [
             self.file.display().to_string(),
             format!("{width}×{height}"),
@@ -81,7 +101,7 @@ impl Report {
             counted(self.lights, "light"),
             duration(self.seconds.render),
             format!("{} samples/s", with_prefix(self.rate())),
-            error,
+            self.error(),
         ]
         .join("  ")
     }
@@ -95,10 +115,18 @@ impl Report {
             "scene": self.scene,
             "width": self.size.0,
             "height": self.size.1,
-            "samples_per_pixel": { "min": self.samples_per_pixel.0, "max": self.samples_per_pixel.1 },
+            "samples_per_pixel": {
+                "min": self.samples_per_pixel.0,
+                "mean": self.mean_samples(),
+                "max": self.samples_per_pixel.1,
+            },
             "samples": self.samples,
             "samples_per_second": self.rate(),
-            "relative_error": self.error,
+            "relative_error": self.error.relative_error(),
+            "relative_error_interval": self.error.interval(),
+            "time_factor_of_half_the_error": self.error.cost_of_half(),
+            "adaptive": self.adaptive,
+            "missed_pixels": self.missed,
             "rejected_samples": self.rejected,
             "triangles": self.triangles,
             "lights": self.lights,
@@ -131,7 +159,9 @@ mod tests {
             triangles: 24_812,
             lights: 1,
             seconds: Seconds { render: 2.1, ..Seconds::default() },
-            error: Some(0.0098),
+            error: ErrorEstimate::default(),
+            missed: 0,
+            adaptive: false,
             rejected: 0,
             interrupted: false,
             seed: 0,
@@ -145,15 +175,15 @@ mod tests {
     fn the_line_holds_everything() {
         assert_eq!(
             report().line(),
-            "halflight.png  960×640  64 samples/pixel  24 812 triangles  1 light  2.1 s  18.7 M samples/s  error 0.98 %"
+            "halflight.png  960×640  64 samples/pixel  24 812 triangles  1 light  2.1 s  18.7 M samples/s  error unknown"
         );
     }
 
     #[test]
     fn an_unknown_error_is_said_to_be_so() {
-        let report = Report { error: None, samples_per_pixel: (1, 2), ..report() };
+        let report = Report { samples_per_pixel: (1, 100), ..report() };
         assert!(report.line().ends_with("error unknown"));
-        assert!(report.line().contains("1 to 2 samples/pixel"));
+        assert!(report.line().contains("64.0 samples/pixel (1 to 100)"));
         assert!(report.json()["relative_error"].is_null());
     }
 }

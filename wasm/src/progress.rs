@@ -27,6 +27,6 @@ impl Progress {
     /// Estimated relative error √relMSE, as a fraction; `undefined` before the second sample.
     #[must_use]
     pub fn error(&self) -> Option<f64> {
-        self.0.relative_error()
+        self.0.estimate().relative_error()
     }
 }

@@ -4,7 +4,7 @@ mod render;
 mod values;
 
 pub(crate) use render::{
-    Choices, Choose, Environment, Heuristic, Lights, Portals, RenderArgs, Sequence, Technique,
+    Adaptive, Choices, Choose, Environment, Heuristic, Lights, Portals, RenderArgs, Sequence, Technique,
 };
 
 use clap::builder::Styles;

@@ -21,7 +21,39 @@ pub(crate) struct RenderArgs {
 
     /// Samples per pixel [default: what the scene says, or 64]
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..), allow_negative_numbers = true)]
+    #[arg(conflicts_with_all = ["error", "time"])]
     pub(crate) spp: Option<u32>,
+
+    /// Take samples until the picture's relative error is estimated to be this: the root of relMSE,
+    /// the mean of (I - R)² / (R² + 0.01) over pixels and channels
+    #[arg(long, value_name = "PERCENT", value_parser = positive, allow_negative_numbers = true, conflicts_with = "time")]
+    pub(crate) error: Option<f32>,
+
+    /// Take the samples that make the best picture in this time, reading and building included
+    #[arg(long, value_name = "SECONDS", value_parser = positive, allow_negative_numbers = true)]
+    pub(crate) time: Option<f32>,
+
+    /// Most samples of a pixel, with --error or --time [default: 65536]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..), allow_negative_numbers = true)]
+    pub(crate) max_spp: Option<u32>,
+
+    /// Whether samples go where the error is, with --error or --time
+    #[arg(long, value_enum, value_name = "WHETHER", default_value_t)]
+    pub(crate) adaptive: Adaptive,
+
+    /// Write layers beside the radiance, into .exr: error.R .G .B (standard error), samples, albedo.R .G
+    /// .B, N.X .Y .Z (normal), Z (depth), visibility (fraction of the light that is seen)
+    #[arg(long)]
+    pub(crate) layers: bool,
+
+    /// Write the samples of each pixel as a picture (.png): white is the most of any
+    #[arg(long, value_name = "FILE.png")]
+    pub(crate) samples_image: Option<PathBuf>,
+
+    /// Write the fraction of the light that is seen as a picture (.png): black in the umbra, white in
+    /// full light
+    #[arg(long, value_name = "FILE.png")]
+    pub(crate) visibility_image: Option<PathBuf>,
 
     /// Columns; the rows follow unless --height is given too
     #[arg(long, value_name = "PIXELS", value_parser = resolution(), allow_negative_numbers = true)]
@@ -116,6 +148,18 @@ const MAX_SPLIT: i64 = 65_536;
 /// A number of pixels that a film can have.
 fn resolution() -> clap::builder::RangedI64ValueParser<u32> {
     value_parser!(u32).range(1..=i64::from(MAX_RESOLUTION))
+}
+
+/// Whether samples go where the error is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub(crate) enum Adaptive {
+    /// With --error and --time
+    #[default]
+    Auto,
+    /// To where the error is
+    On,
+    /// To every pixel alike
+    Off,
 }
 
 /// How the surface of a light is sampled.
@@ -222,6 +266,13 @@ impl Default for RenderArgs {
             scene: None,
             output: DEFAULT_OUTPUT.into(),
             spp: None,
+            error: None,
+            time: None,
+            max_spp: None,
+            adaptive: Adaptive::Auto,
+            layers: false,
+            samples_image: None,
+            visibility_image: None,
             width: None,
             height: None,
             crop: None,

@@ -1,28 +1,25 @@
 //! `halflight render`: a scene to a picture.
 
-use crate::args::{Environment, Portals, RenderArgs};
-use crate::driver::{self, Rendered};
+use crate::args::{Environment, Portals, RenderArgs, Technique};
+use crate::driver::{self, Goal, Rendered};
 use crate::failure::{Exit, Failure};
+use crate::goal;
 use crate::interrupt::on_interrupt;
-use crate::number::{bytes, counted};
-use crate::output::Output;
-use crate::picture::{Format, Picture};
+use crate::number::{bytes, counted, percent};
 use crate::plan::{self, Plan};
 use crate::progress::{RenderBar, Step};
 use crate::report::{Report, Seconds};
+use crate::save::{Files, Saved};
 use crate::scene::{self, Found};
 use crate::terminal;
 use halflight::build::{Description, SceneBuffers};
-use halflight::estimate::{Job, PixelStats};
+use halflight::estimate::{Job, LayeredPixel, PixelStats};
 use halflight::light::Emitter;
 use halflight::{Camera, Film};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::hint::black_box;
 use std::thread::available_parallelism;
 use std::time::Instant;
-
-/// Samples per pixel where neither the user nor the scene says.
-const DEFAULT_SAMPLES: u32 = 64;
 
 /// A scene ready for rendering.
 #[derive(Debug)]
@@ -32,7 +29,7 @@ struct Prepared {
     camera: Camera,
     film: Film,
     plan: Plan,
-    samples: u32,
+    goal: Goal,
     seconds: Seconds,
     /// Whether the scene has portals, used or not.
     has_portals: bool,
@@ -40,17 +37,49 @@ struct Prepared {
 
 /// Renders a scene and writes the picture.
 pub(crate) fn run(args: &RenderArgs) -> Result<Exit, Failure> {
-    let format = Format::of(&args.output)?;
+    let begin = Instant::now();
     plan::check(&args.choices)?;
-    let output = Output::check(&args.output)?;
+    goal::check(args)?;
+    check_visibility(args)?;
+    let files = Files::check(args)?;
     let pool = pool(args)?;
-    let mut prepared = prepare(args)?;
-    if args.exposure.is_some() && !format.is_8_bit() {
+    let mut prepared = prepare(args, begin)?;
+    if args.exposure.is_some() && !files.is_8_bit() {
         prepared.warn(format!("--exposure has no effect on {}; it is for .png", args.output.display()));
     }
     without_effect(args, &prepared).into_iter().for_each(|text| prepared.warn(text.to_owned()));
+    if sees_layers(args) {
+        finish::<LayeredPixel>(args, prepared, &files, &pool)
+    } else {
+        finish::<PixelStats>(args, prepared, &files, &pool)
+    }
+}
+
+/// True when more than the radiance is asked for.
+fn sees_layers(args: &RenderArgs) -> bool {
+    args.layers || args.visibility_image.is_some()
+}
+
+/// Visibility is seen by light samples.
+fn check_visibility(args: &RenderArgs) -> Result<(), Failure> {
+    if args.visibility_image.is_some() && args.choices.technique == Technique::Bsdf {
+        return Err(Failure::new(
+            "--visibility-image has no use with --technique bsdf, which samples no light",
+        )
+        .tip("leave one of them out"));
+    }
+    Ok(())
+}
+
+/// Renders, writes and reports, with pixels that know as much as is asked for.
+fn finish<P: Saved + Default + Clone + Send>(
+    args: &RenderArgs,
+    mut prepared: Prepared,
+    files: &Files,
+    pool: &ThreadPool,
+) -> Result<Exit, Failure> {
     let start = Instant::now();
-    let rendered = pool.install(|| render(args, &prepared))?;
+    let rendered = pool.install(|| render::<P>(args, &prepared))?;
     prepared.seconds.render = start.elapsed().as_secs_f64();
     if rendered.rejected() > 0 {
         let samples = counted(rendered.rejected(), "sample");
@@ -58,8 +87,12 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Exit, Failure> {
             "{samples} left out that came to no finite number; the picture misses their light"
         ));
     }
+    prepared.warn_of_missed(&rendered);
     let start = Instant::now();
-    save(args, format, &output, &rendered, &prepared)?;
+    {
+        let _step = Step::begin(format!("writing {}", args.output.display()), args.quiet);
+        files.write(args, &rendered)?;
+    }
     prepared.seconds.save = start.elapsed().as_secs_f64();
     tell(args, &report(args, prepared, &rendered, pool.current_num_threads()))
 }
@@ -96,7 +129,7 @@ fn pool(args: &RenderArgs) -> Result<ThreadPool, Failure> {
 }
 
 /// Everything before the first sample.
-fn prepare(args: &RenderArgs) -> Result<Prepared, Failure> {
+fn prepare(args: &RenderArgs, begin: Instant) -> Result<Prepared, Failure> {
     let mut seconds = Seconds::default();
     let name = scene::shown(args.scene.as_deref());
     let (found, has_portals) = {
@@ -119,14 +152,9 @@ fn prepare(args: &RenderArgs) -> Result<Prepared, Failure> {
         buffers
     };
     let plan = plan::make(&args.choices, &found.description, &buffers.bind()).map_err(|e| e.about(&name))?;
-    let samples = args.spp.or(found.description.samples_per_pixel).unwrap_or(DEFAULT_SAMPLES);
-    if samples == 0 {
-        return Err(Failure::new("0 samples per pixel make no picture")
-            .about(&name)
-            .tip("choose some with --spp"));
-    }
+    let goal = goal::make(args, &found.description, begin).map_err(|e| e.about(&name))?;
     let degenerate = buffers.stats().degenerate as u64;
-    let mut prepared = Prepared { found, buffers, camera, film, plan, samples, seconds, has_portals };
+    let mut prepared = Prepared { found, buffers, camera, film, plan, goal, seconds, has_portals };
     if degenerate > 0 {
         prepared.warn(format!("{} without area left out", counted(degenerate, "triangle")));
     }
@@ -139,6 +167,17 @@ impl Prepared {
         terminal::warning(&text);
         self.found.warnings.push(text);
     }
+
+    /// Says which pixels have not reached the error that was asked for.
+    fn warn_of_missed<P>(&mut self, rendered: &Rendered<P>) {
+        if let (Goal::Error { target, most, .. }, 1..) = (self.goal, rendered.missed) {
+            let (missed, all) = (counted(rendered.missed, "pixel"), self.film.crop().area());
+            let target = percent(target);
+            self.warn(format!(
+                "{missed} of {all} did not reach {target} with {most} samples each; --max-spp allows more"
+            ));
+        }
+    }
 }
 
 /// The film and the camera, after the flags that change them.
@@ -150,23 +189,23 @@ fn view(args: &RenderArgs, description: &Description) -> Result<(Film, Camera), 
             Failure::new(e).tip(format!("the film is {width}×{height} pixels; choose --crop within it"))
         })?;
     }
-    check_memory(&film)?;
+    check_memory(&film, if sees_layers(args) { size_of::<LayeredPixel>() } else { size_of::<PixelStats>() })?;
     let camera = description.camera.camera(width, height).map_err(Failure::new)?;
     Ok((film, camera))
 }
 
 /// Asks for the film's memory once as a whole: piece by piece, the system would promise more than it
 /// has, and end the program later.
-fn check_memory(film: &Film) -> Result<(), Failure> {
+fn check_memory(film: &Film, bytes_per_pixel: usize) -> Result<(), Failure> {
     let pixels = film.crop().area();
-    let mut probe = Vec::<PixelStats>::new();
-    let granted = probe.try_reserve_exact(pixels).is_ok();
+    let mut probe = Vec::<u8>::new();
+    let granted = probe.try_reserve_exact(pixels * bytes_per_pixel).is_ok();
     black_box(&probe);
     if granted {
         return Ok(());
     }
     let (width, height) = (film.crop().width(), film.crop().height());
-    let needed = bytes(pixels as u64 * size_of::<PixelStats>() as u64);
+    let needed = bytes(pixels as u64 * bytes_per_pixel as u64);
     Err(Failure::new(format!("{width}×{height} pixels need {needed} of memory, more than there is"))
         .tip("choose a smaller --width and --height, or a part with --crop"))
 }
@@ -184,39 +223,26 @@ fn size(args: &RenderArgs, description: &Description) -> (u32, u32) {
 }
 
 /// Takes the samples.
-fn render(args: &RenderArgs, prepared: &Prepared) -> Result<Rendered, Failure> {
-    let Prepared { buffers, camera, film, plan, samples, .. } = prepared;
+fn render<P: Saved + Default + Clone + Send>(
+    args: &RenderArgs,
+    prepared: &Prepared,
+) -> Result<Rendered<P>, Failure> {
+    let Prepared { buffers, camera, film, plan, goal, .. } = prepared;
     let bound = buffers.bind();
     let job = Job {
         scene: bound.scene(),
         camera: *camera,
         film: *film,
         estimator: plan.estimator(buffers),
-        sequence: plan.sequence(args.seed, film.width(), *samples),
+        sequence: plan.sequence(args.seed, film.width(), goal.samples()),
     };
     let stop = on_interrupt()?;
-    let bar = RenderBar::new(film.crop().area() as u64, *samples, args.quiet);
-    let render_tile = |tile, samples, pixels: &mut [_]| job.render(tile, samples, pixels);
-    Ok(driver::render(film.crop(), *samples, &stop, &render_tile, &|event| bar.show(event)))
-}
-
-/// Writes the picture.
-fn save(
-    args: &RenderArgs,
-    format: Format,
-    output: &Output,
-    rendered: &Rendered,
-    prepared: &Prepared,
-) -> Result<(), Failure> {
-    let _step = Step::begin(format!("writing {}", output.path().display()), args.quiet);
-    let crop = prepared.film.crop();
-    let pixels = rendered.pixels(|p| p.mean());
-    let picture = Picture { width: crop.width(), height: crop.height(), pixels };
-    output.write(&format.encode(&picture, args.exposure.unwrap_or(0.0))?)
+    let bar = RenderBar::new(film.crop().area() as u64, *goal, args.quiet);
+    Ok(driver::render(film.crop(), *goal, &stop, &job, &|event| bar.show(event)))
 }
 
 /// The render in numbers.
-fn report(args: &RenderArgs, prepared: Prepared, rendered: &Rendered, threads: usize) -> Report {
+fn report<P: Saved>(args: &RenderArgs, prepared: Prepared, rendered: &Rendered<P>, threads: usize) -> Report {
     let stats = prepared.buffers.stats();
     let crop = prepared.film.crop();
     Report {
@@ -228,7 +254,9 @@ fn report(args: &RenderArgs, prepared: Prepared, rendered: &Rendered, threads: u
         triangles: stats.triangles as u64,
         lights: stats.lights as u64,
         seconds: prepared.seconds,
-        error: rendered.relative_error(),
+        error: rendered.error,
+        missed: rendered.missed,
+        adaptive: prepared.goal.is_adaptive(),
         rejected: rendered.rejected(),
         interrupted: rendered.interrupted,
         seed: args.seed,
@@ -249,5 +277,9 @@ fn tell(args: &RenderArgs, report: &Report) -> Result<Exit, Failure> {
     } else if !args.quiet {
         terminal::result(&report.line())?;
     }
-    Ok(if report.interrupted { Exit::Interrupted } else { Exit::Good })
+    Ok(match (report.interrupted, report.missed) {
+        (true, _) => Exit::Interrupted,
+        (false, 0) => Exit::Good,
+        _ => Exit::CheckFailed,
+    })
 }

@@ -1,9 +1,11 @@
 //! Pictures in memory: linear RGB, first row on top.
 
+mod layers;
 mod read;
 mod srgb;
 mod write;
 
+pub(crate) use layers::{Layer, encode_layers};
 pub(crate) use read::read;
 pub(crate) use srgb::{decode, encode};
 pub(crate) use write::Format;

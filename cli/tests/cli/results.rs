@@ -12,7 +12,8 @@ fn json(folder: &Folder, line: &str) -> Value {
 fn the_summary_is_one_line() {
     let line = Folder::new().good("render scene.xml -o out.png");
     assert!(line.starts_with("out.png  24×16  4 samples/pixel  0 triangles  1 light  "), "{line}");
-    assert!(line.contains(" samples/s  error ") && line.ends_with(" %\n"), "{line}");
+    assert!(line.contains(" samples/s  error ") && line.contains(" % ± "), "{line}");
+    assert!(line.contains("  half the error: ") && line.ends_with("× the time\n"), "{line}");
     assert_eq!(line.lines().count(), 1);
 }
 
@@ -32,7 +33,7 @@ fn a_render_in_json() {
     let render = json(&Folder::new(), "render scene.xml -o out.png --spp 5 --seed 3 --threads 2 --json");
     assert_eq!(render["file"], "out.png");
     assert_eq!((&render["width"], &render["height"]), (&24.into(), &16.into()));
-    assert_eq!(render["samples_per_pixel"], serde_json::json!({ "min": 5, "max": 5 }));
+    assert_eq!(render["samples_per_pixel"], serde_json::json!({ "min": 5, "mean": 5.0, "max": 5 }));
     assert_eq!(render["samples"], 24 * 16 * 5);
     assert_eq!((&render["seed"], &render["threads"]), (&3.into(), &2.into()));
     assert!(render["relative_error"].as_f64().is_some_and(|e| e > 0.0), "{render}");

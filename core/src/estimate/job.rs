@@ -1,6 +1,6 @@
 //! Rendering a part of a picture.
 
-use super::{DifferenceSums, Estimator, PixelStats};
+use super::{DifferenceSums, Estimator, Observer, Pixel};
 use crate::camera::Camera;
 use crate::film::{Film, PixelRect};
 use crate::light::Emitter;
@@ -34,19 +34,33 @@ impl<S: Shape, L: Emitter, M: Material, E: Estimator, Q: Sequence + Clone> Job<'
     /// * `pixels` – of the tile, row by row from its top; as many as the tile has
     ///
     /// Returns what [`super::Convergence::record`] wants to know.
-    pub fn render(&self, tile: PixelRect, samples: Range<u32>, pixels: &mut [PixelStats]) -> DifferenceSums {
+    pub fn render<P: Pixel>(&self, tile: PixelRect, samples: Range<u32>, pixels: &mut [P]) -> DifferenceSums {
+        self.render_part(tile, tile, samples, pixels)
+    }
+
+    /// The same for a part of the tile.
+    pub(super) fn render_part<P: Pixel>(
+        &self,
+        tile: PixelRect,
+        part: PixelRect,
+        samples: Range<u32>,
+        pixels: &mut [P],
+    ) -> DifferenceSums {
         let mut sums = DifferenceSums::default();
         let mut sequence = self.sequence.clone();
-        let places = (tile.y0..tile.y1).flat_map(|y| (tile.x0..tile.x1).map(move |x| (x, y)));
-        for ((x, y), pixel) in places.zip(pixels) {
-            let before = *pixel;
-            for sample in samples.clone() {
-                pixel.add(self.sample(x, y, sample, &mut sequence));
-            }
-            if before.count() > 0 && pixel.count() > before.count() {
-                let (old, new) = (before.mean().to_array(), pixel.mean().to_array());
-                for (old, new) in old.into_iter().zip(new) {
-                    sums.add(old, new, before.count(), pixel.count());
+        let columns = (part.x0 - tile.x0) as usize..(part.x1 - tile.x0) as usize;
+        let rows = pixels.chunks_mut(tile.width() as usize).skip((part.y0 - tile.y0) as usize);
+        for (y, row) in (part.y0..part.y1).zip(rows) {
+            let Some(row) = row.get_mut(columns.clone()) else { break };
+            for (x, pixel) in (part.x0..part.x1).zip(row) {
+                let before = *pixel.stats();
+                for sample in samples.clone() {
+                    let radiance = self.sample(x, y, sample, &mut sequence, pixel);
+                    pixel.add(radiance);
+                }
+                let after = pixel.stats();
+                if before.count() > 0 && after.count() > before.count() {
+                    sums.add(before.mean(), after.mean(), before.count(), after.count());
                 }
             }
         }
@@ -55,12 +69,19 @@ impl<S: Shape, L: Emitter, M: Material, E: Estimator, Q: Sequence + Clone> Job<'
 
     /// One sample of pixel (x, y).
     #[inline]
-    fn sample(&self, x: u32, y: u32, sample: u32, sequence: &mut Q) -> crate::Rgb {
+    fn sample(
+        &self,
+        x: u32,
+        y: u32,
+        sample: u32,
+        sequence: &mut Q,
+        observer: &mut impl Observer,
+    ) -> crate::Rgb {
         // The pixel's number does not depend on the crop window.
         sequence.start(y.wrapping_mul(self.film.width()).wrapping_add(x), sample);
         let (px, py) = self.film.place(x, y, sequence.point(Dimension::Film, 0, 1));
         let (ray, reach) = self.camera.ray(px, py);
-        self.estimator.sample(&self.scene, &ray, reach, sequence)
+        self.estimator.observe(&self.scene, &ray, reach, sequence, observer)
     }
 }
 

@@ -1,24 +1,28 @@
 //! Estimators: what a camera ray brings back, and how well that is known.
 
+mod adaptive;
 mod arrival;
 mod convergence;
 mod direct;
 mod gather;
 mod heuristic;
 mod job;
+mod layers;
 mod observer;
 mod occlusion;
 mod shading;
 mod stats;
 
+pub use adaptive::{AdaptiveTile, TILE, Target};
 pub use arrival::{Arrival, LightRay};
-pub use convergence::{Convergence, DifferenceSums};
+pub use convergence::{Convergence, DifferenceSums, ErrorEstimate};
 pub use direct::{Direct, Technique};
 pub use heuristic::Heuristic;
 pub use job::{Job, passes};
+pub use layers::LayeredPixel;
 pub use observer::Observer;
 pub use occlusion::Occlusion;
-pub use stats::PixelStats;
+pub use stats::{Pixel, PixelStats};
 
 use crate::Rgb;
 use crate::geom::Ray;

@@ -1,5 +1,6 @@
 //! What is known of a pixel so far.
 
+use super::Observer;
 use crate::Rgb;
 
 /// Running mean and variance of a pixel's samples.
@@ -75,6 +76,29 @@ impl PixelStats {
         let float = f32::from_bits;
         let mean = Rgb::new(float(r), float(g), float(b));
         Self { mean, squares: Rgb::new(float(rr), float(gg), float(bb)), count, rejected }
+    }
+}
+
+/// Where the samples of a pixel go: its mean, and whatever else it observes.
+pub trait Pixel: Observer {
+    /// What is known of its radiance.
+    fn stats(&self) -> &PixelStats;
+
+    /// Takes a sample in.
+    fn add(&mut self, sample: Rgb);
+}
+
+impl Observer for PixelStats {}
+
+impl Pixel for PixelStats {
+    #[inline]
+    fn stats(&self) -> &Self {
+        self
+    }
+
+    #[inline]
+    fn add(&mut self, sample: Rgb) {
+        self.add(sample);
     }
 }
 

@@ -145,7 +145,7 @@ mod tests {
             let [x, _] = s.point(Dimension::Bsdf, draw, 1 << 16);
             sum += f64::from(x);
             // The sample with the same index in the first scramble.
-            s.start(0, u32::MAX & 0xffff);
+            s.start(0, 0xffff);
             same += u32::from(s.point(Dimension::Bsdf, draw, 1 << 16)[0] == x);
         }
         assert!((sum / 1024.0 - 0.5).abs() < 1e-3 && same < 4, "{sum} {same}");

@@ -1,0 +1,111 @@
+//! Asking for an error or a time.
+
+use crate::support::Folder;
+use serde_json::Value;
+use std::time::Instant;
+
+/// Runs a render with --json; returns its code and what it printed.
+fn render(folder: &Folder, arguments: &str) -> (Option<i32>, Value) {
+    let run = folder.run(&format!("render scene.xml -o out.exr --json {arguments}"));
+    let json = serde_json::from_str(&run.stdout).unwrap_or_else(|e| panic!("{arguments}: {e}: {run:?}"));
+    (run.code, json)
+}
+
+fn number(json: &Value, key: &str) -> f64 {
+    json[key].as_f64().unwrap_or_else(|| panic!("{key}: {json}"))
+}
+
+/// relMSE of one picture against another.
+fn relmse(folder: &Folder, a: &str, b: &str) -> f64 {
+    let json = folder.good(&format!("compare {a} {b} --json"));
+    number(&serde_json::from_str(&json).unwrap(), "relmse")
+}
+
+#[test]
+fn the_error_is_what_was_asked_for() {
+    let folder = Folder::new();
+    for seed in [1001, 1002] {
+        folder.good(&format!("render scene.xml -o {seed}.exr --width 96 --spp 2048 --seed {seed} --quiet"));
+    }
+    let between = relmse(&folder, "1001.exr", "1002.exr");
+    for (percent, adaptive) in [(5.0, "on"), (2.0, "on"), (1.0, "on"), (2.0, "off")] {
+        for seed in [0, 1] {
+            let goal = format!("--width 96 --error {percent} --adaptive {adaptive} --seed {seed}");
+            let (code, json) = render(&folder, &goal);
+            assert_eq!(code, Some(0), "{goal}");
+            // The noise of the references drops out of this product.
+            let product = relmse(&folder, "out.exr", "1001.exr") + relmse(&folder, "out.exr", "1002.exr");
+            let ratio = 100.0 / percent * (0.5 * (product - between)).sqrt();
+            assert!((0.5..1.1).contains(&ratio), "{goal}: {ratio} {json}");
+            let estimate = 100.0 / percent * number(&json, "relative_error");
+            assert!((0.5..=1.0 + 1e-6).contains(&estimate), "{goal}: {estimate}");
+        }
+    }
+}
+
+#[test]
+fn samples_go_where_the_error_is_and_save_some() {
+    let folder = Folder::new();
+    let mean = |adaptive: &str| {
+        let (_, json) = render(&folder, &format!("--width 96 --error 1 --adaptive {adaptive}"));
+        assert_eq!(json["adaptive"], adaptive == "on");
+        number(&json["samples_per_pixel"], "mean")
+    };
+    assert!(mean("on") < 0.8 * mean("off"));
+}
+
+#[test]
+fn any_number_of_threads_and_any_window_of_whole_tiles_gives_the_same_bits() {
+    let folder = Folder::new();
+    let picture = |arguments: &str| {
+        render(&folder, &format!("--width 96 --height 64 --error 2 {arguments}"));
+        image::open(folder.path("out.exr")).unwrap().to_rgb32f()
+    };
+    let whole = picture("--threads 1");
+    assert_eq!(picture("--threads 5"), whole);
+    let part = picture("--crop 32,32,96,64");
+    assert!(part.enumerate_pixels().all(|(x, y, p)| p == whole.get_pixel(x + 32, y + 32)));
+}
+
+#[test]
+fn what_misses_its_share_is_counted() {
+    let folder = Folder::new();
+    for adaptive in ["on", "off"] {
+        let line = format!("--error 0.5 --max-spp 16 --adaptive {adaptive}");
+        let (code, json) = render(&folder, &line);
+        assert_eq!(code, Some(1), "{json}");
+        assert!((1.0..=24.0 * 16.0).contains(&number(&json, "missed_pixels")), "{json}");
+        assert!(json["warnings"][0].as_str().unwrap().contains("did not reach 0.50 % with 16 samples each"));
+        assert_eq!(json["samples_per_pixel"]["max"], 16);
+        assert!(folder.names().contains(&"out.exr".to_owned()), "the picture is written all the same");
+    }
+}
+
+#[test]
+fn the_time_is_used() {
+    let folder = Folder::new();
+    for adaptive in ["on", "off"] {
+        let start = Instant::now();
+        let (code, json) = render(&folder, &format!("--width 480 --time 2 --adaptive {adaptive}"));
+        let seconds = start.elapsed().as_secs_f64();
+        // On a busy machine the program may be held up; it does not end early.
+        assert!((1.9..4.0).contains(&seconds), "{adaptive}: {seconds} s {json}");
+        assert_eq!(code, Some(0));
+    }
+}
+
+#[test]
+fn goals_that_contradict_each_other_are_refused() {
+    let folder = Folder::new();
+    for goals in ["--spp 4 --error 1", "--spp 4 --time 1", "--error 1 --time 1"] {
+        assert!(folder.refused(&format!("render scene.xml {goals}")).contains("cannot be used with"));
+    }
+    for flag in ["--max-spp 4", "--adaptive on"] {
+        let message = folder.refused(&format!("render scene.xml {flag}"));
+        assert!(message.contains(&flag.replace(" 4", "")), "{message}");
+        assert!(message.contains("use it with --error or --time"), "{message}");
+    }
+    for goal in ["--error 0", "--error -1", "--error nan", "--time 0", "--time x", "--max-spp 0 --error 1"] {
+        folder.refused(&format!("render scene.xml {goal}"));
+    }
+}
