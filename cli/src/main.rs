@@ -12,6 +12,7 @@ mod number;
 mod output;
 mod picture;
 mod plan;
+mod plot;
 mod progress;
 mod report;
 mod save;
@@ -19,7 +20,7 @@ mod scene;
 mod terminal;
 
 use args::{Command, RenderArgs};
-use commands::{compare, export, inspect, render, scenes, serve};
+use commands::{compare, export, inspect, render, scenes, serve, tradeoff};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -30,6 +31,7 @@ fn main() -> ExitCode {
         Some(Command::Export(args)) => export::run(&args),
         Some(Command::Inspect(args)) => inspect::run(&args),
         Some(Command::Compare(args)) => compare::run(&args),
+        Some(Command::Tradeoff(args)) => tradeoff::run(&args),
         Some(Command::Serve(args)) => serve::run(&args),
     };
     match result {

@@ -2,9 +2,7 @@
 
 use crate::args::{Choices, Choose, Environment, Heuristic, Lights, Portals, Sequence, Technique};
 use crate::failure::Failure;
-use halflight::build::{
-    BoundScene, Description, FEW_LIGHTS, IntegratorDescription, SceneBuffers, required_environment,
-};
+use halflight::build::{BoundScene, Description, FEW_LIGHTS, IntegratorDescription, SceneBuffers};
 use halflight::choose::LightChoice;
 use halflight::estimate::{AnyEstimator, Direct, Heuristic as Weights, Occlusion, Technique as Combine};
 use halflight::light::{AnyLight, Emitter, EnvironmentDensity, SurfaceDensity};
@@ -87,6 +85,10 @@ const fn technique_name(technique: Technique) -> &'static str {
 
 /// Makes every choice.
 ///
+/// With `auto`, neighbouring pixels share their points. On the peers' `rect` √relMSE is that of points
+/// for each pixel alone, and after a blur by one pixel it is 0.71, 0.79, 0.91 and 0.96 of theirs at 1, 4,
+/// 16 and 64 samples.
+///
 /// # Errors
 /// When the scene has no light, so that the picture would be black.
 pub(crate) fn make(
@@ -96,8 +98,8 @@ pub(crate) fn make(
 ) -> Result<Plan, Failure> {
     let points = match choices.sequence {
         Sequence::Random => Points::Random,
-        Sequence::Sobol | Sequence::Auto => Points::Sobol,
-        Sequence::Zsobol => Points::ZSobol,
+        Sequence::Sobol => Points::Sobol,
+        Sequence::Zsobol | Sequence::Auto => Points::ZSobol,
     };
     if choices.technique == Technique::Occlusion {
         return Ok(Plan::Occlusion { reach: choices.occlusion_distance.unwrap_or(f32::INFINITY), points });
@@ -281,7 +283,7 @@ const fn points_flag(points: Points) -> &'static str {
 /// Chooses how directions toward the scene's environment maps are drawn, before its tables are built.
 pub(crate) fn choose_environment(choices: &Choices, description: &mut Description) {
     let density = match choices.environment {
-        Environment::Auto => required_environment(technique(choices, description)),
+        Environment::Auto => description.required_environment(technique(choices, description)),
         Environment::Cosine => EnvironmentDensity::Cosine,
         Environment::Luminance => EnvironmentDensity::Luminance,
         Environment::Compensated => EnvironmentDensity::Compensated,

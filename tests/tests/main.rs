@@ -15,6 +15,7 @@ mod lights;
 mod pictures;
 mod portals;
 mod properties;
+mod sequences;
 mod shapes;
 
 /// Every kind of light has its line in the conformance suite.

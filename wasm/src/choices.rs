@@ -1,6 +1,6 @@
 //! Choices by the names that the command line gives them.
 
-use halflight::build::{Description, FEW_LIGHTS, SceneBuffers, required_environment};
+use halflight::build::{Description, FEW_LIGHTS, SceneBuffers};
 use halflight::choose::LightChoice;
 use halflight::estimate::{Arrival, Direct, Heuristic, Occlusion, Technique};
 use halflight::light::{EnvironmentDensity, SurfaceDensity};
@@ -127,7 +127,7 @@ impl Choices {
 
     /// How directions toward the environment maps of a scene are drawn: part of its tables.
     pub(crate) fn environment(&self, description: &Description) -> EnvironmentDensity {
-        self.environment.unwrap_or_else(|| required_environment(self.technique(description)))
+        self.environment.unwrap_or_else(|| description.required_environment(self.technique(description)))
     }
 
     /// The estimator for a scene of `lights` lights.

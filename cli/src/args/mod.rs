@@ -1,11 +1,13 @@
 //! The command line: what can be typed, and its typed form.
 
 mod render;
+mod tradeoff;
 mod values;
 
 pub(crate) use render::{
     Adaptive, Choices, Choose, Environment, Heuristic, Lights, Portals, RenderArgs, Sequence, Technique,
 };
+pub(crate) use tradeoff::TradeoffArgs;
 
 use clap::builder::Styles;
 use clap::builder::styling::{AnsiColor, Style};
@@ -40,6 +42,8 @@ pub(crate) enum Command {
     Inspect(InspectArgs),
     /// Measure how far a picture is from a reference
     Compare(CompareArgs),
+    /// Measure error against time for each choice that a scene makes possible
+    Tradeoff(TradeoffArgs),
     /// Serve the browser page on this machine
     Serve(ServeArgs),
 }

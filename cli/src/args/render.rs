@@ -95,7 +95,7 @@ pub(crate) struct RenderArgs {
 }
 
 /// Choices that trade time for accuracy; `auto` takes what the scene requires.
-#[derive(Debug, Args, Default)]
+#[derive(Debug, Clone, Copy, Args, Default)]
 #[command(next_help_heading = "Choices that trade time for accuracy")]
 pub(crate) struct Choices {
     /// How the surface of a light is sampled
@@ -146,7 +146,7 @@ const DEFAULT_OUTPUT: &str = "halflight.png";
 const MAX_SPLIT: i64 = 65_536;
 
 /// A number of pixels that a film can have.
-fn resolution() -> clap::builder::RangedI64ValueParser<u32> {
+pub(super) fn resolution() -> clap::builder::RangedI64ValueParser<u32> {
     value_parser!(u32).range(1..=i64::from(MAX_RESOLUTION))
 }
 

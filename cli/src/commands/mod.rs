@@ -6,3 +6,4 @@ pub(crate) mod inspect;
 pub(crate) mod render;
 pub(crate) mod scenes;
 pub(crate) mod serve;
+pub(crate) mod tradeoff;

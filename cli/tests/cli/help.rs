@@ -22,14 +22,14 @@ fn check(name: &str, line: &str) {
 #[test]
 fn help_is_as_it_is_kept() {
     check("halflight", "--help");
-    for command in ["render", "scenes", "export", "inspect", "compare", "serve"] {
+    for command in ["render", "scenes", "export", "inspect", "compare", "serve", "tradeoff"] {
         check(command, &format!("{command} --help"));
     }
 }
 
 #[test]
 fn no_line_of_help_is_wider_than_a_terminal() {
-    for command in ["", "render", "scenes", "export", "inspect", "compare", "serve"] {
+    for command in ["", "render", "scenes", "export", "inspect", "compare", "serve", "tradeoff"] {
         let help = Folder::new().good(&format!("{command} --help"));
         for line in help.lines() {
             assert!(line.chars().count() <= 100, "{command}: {line}");

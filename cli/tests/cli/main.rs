@@ -12,3 +12,4 @@ mod output_range;
 mod results;
 mod serve;
 mod support;
+mod tradeoff;

@@ -14,7 +14,7 @@ mod sky;
 mod texture;
 mod tree;
 
-pub use auto::{FEW_LIGHTS, required_environment};
+pub use auto::FEW_LIGHTS;
 pub use bound::BoundScene;
 pub use buffers::{SceneBuffers, SceneStats};
 pub use description::{
