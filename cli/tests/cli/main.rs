@@ -8,6 +8,7 @@ mod goals;
 mod help;
 #[cfg(unix)]
 mod interrupt;
+mod layers;
 mod output_range;
 mod results;
 mod serve;
