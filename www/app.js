@@ -20,19 +20,17 @@ export class App {
   /** Set by main.js: { light, show, sampling, probe, status }. */
   panels = {};
   lights = [];
-  authored = [];
   facts = { radius: 1, lights: 0, environments: 0, width: 3, height: 2, name: '', warnings: [] };
   source = null;
   orbit = null;
 
   #pool;
   #edits = new Map();
-  #sending = false;
   #lightsMoved = false;
-  #cameraMoved = false;
   #probed = null;
   #probe = null;
   #loading = 0;
+  #author;
 
   constructor(pool, state) {
     this.#pool = pool;
@@ -43,6 +41,7 @@ export class App {
     this.renderer = new Renderer(pool);
     this.renderer.target = state.target / 100;
     this.renderer.equal = state.equal;
+    this.renderer.prepare = () => this.#flush();
     const sides = () => this.renderer.films.length;
     this.renderer.addEventListener('tile', ({ detail: { film, side, tile } }) => this.screen.tile(film, side, sides(), tile));
     this.renderer.addEventListener('frame', ({ detail }) => { this.screen.frame(detail.films); this.panels.status.show(); });
@@ -68,48 +67,64 @@ export class App {
 
   // Scenes
 
-  /** Shows a scene: { builtin } or { name, files }. The state's camera, lights and choices are applied. */
+  /** Shows a scene, see `open` in engine/core.js. The state's camera, lights and choices are applied. */
   async load(source) {
     const loading = ++this.#loading;
-    const author = await this.#pool.all({ type: 'load', side: 0, source, edits: [] });
+    const author = await this.#pool.all({ type: 'load', side: 0, source, edits: this.#all(0) });
     if (loading !== this.#loading) return;
     this.source = source;
-    Object.assign(this, { facts: author.facts, authored: author.authored, lights: author.lights });
-    this.#author = author.view;
+    Object.assign(this, { facts: author.facts, lights: author.lights });
     this.closeProbe();
-    const seen = await this.#pool.ask({ type: 'probe', side: 0, size: [3, 2], x: 1, y: 1, samples: 0 });
-    this.#distance = seen.probe?.distance ?? this.facts.radius;
-    this.orbit = new Orbit(this.#author, this.#distance);
+    this.#author = author.view;
+    this.orbit = new Orbit(author.view, this.facts.radius);
     if (this.state.camera) this.orbit.restore(this.state.camera);
-    this.#cameraMoved = Boolean(this.state.camera);
     this.state.light = Math.min(this.state.light, Math.max(0, this.lights.length - 1));
     this.canvas.setAttribute('aria-label', `${this.facts.name}: ${this.facts.triangles} triangles, ${this.facts.lights} lights`);
-    this.#resize();
-    await this.#apply();
+    if (this.state.compare) await this.#second();
     this.say(this.facts.warnings.join('\n'));
+    this.#resize();
+    // A quick picture first, and what the camera turns around meanwhile.
+    this.renderer.move(...this.size, this.sides);
+    this.renderer.addEventListener('frame', () => this.renderer.release(), { once: true });
+    this.refresh();
+    if (!this.state.camera) await this.#focus(loading);
   }
 
-  #author;
-  #distance = 1;
+  /** What is in the middle of the picture is what the camera turns around. */
+  async #focus(loading) {
+    const { probe } = await this.#pool.ask({ type: 'probe', side: 0, size: [3, 3], x: 1, y: 1, samples: 0 });
+    if (probe && loading === this.#loading && !this.state.camera) this.orbit = new Orbit(this.#author, probe.distance);
+  }
 
-  /** Tells the workers all of the state, both sides of it, and begins anew. */
+  get pool() {
+    return this.#pool;
+  }
+
+  /** Other workers. */
+  use(pool) {
+    this.#pool = pool;
+    this.renderer.use(pool);
+  }
+
+  /** The scene a second time, for the right side. */
+  #second() {
+    return this.#pool.all({ type: 'load', side: 1, source: this.source, edits: this.#all(1) });
+  }
+
+  /** Tells the workers the choices of both sides, and begins anew. */
   async #apply() {
-    const edits = this.#all();
-    if (this.state.compare) {
-      await this.#pool.all({ type: 'load', side: 1, source: this.source, edits: [...edits, ...this.#choices(1)] });
-    } else {
-      await this.#pool.all({ type: 'close', side: 1 });
-    }
-    const { lights } = await this.#pool.all({ type: 'change', side: 0, edits: [...edits, ...this.#choices(0)] });
-    this.lights = lights;
+    if (this.state.compare) await this.#second();
+    else await this.#pool.all({ type: 'close', side: 1 });
+    await this.#pool.all({ type: 'change', side: 0, edits: this.#choices(0) });
     this.renderer.restart(...this.size, this.sides);
     this.refresh();
   }
 
-  #all() {
+  /** Everything that the state changes of a scene. */
+  #all(side) {
     const edits = Object.keys(this.state.lights).map((index) => this.#lightEdit(Number(index)));
-    if (this.#cameraMoved) edits.unshift(this.#lookEdit());
-    return [...edits, ['settle']];
+    if (this.state.camera) edits.unshift(this.#lookEdit());
+    return [...edits, ['settle'], ...this.#choices(side)];
   }
 
   #choices(side) {
@@ -118,7 +133,7 @@ export class App {
   }
 
   #lookEdit() {
-    const { origin, target, up, halfWidth } = this.orbit;
+    const { origin, target, up, halfWidth } = this.state.camera;
     return ['look', Float32Array.from(origin), Float32Array.from(target), Float32Array.from(up), halfWidth];
   }
 
@@ -129,31 +144,30 @@ export class App {
 
   // Changes
 
-  /** Sends changes, the latest of each kind, and follows them with quick frames. */
-  async #send(key, edit) {
+  /** Notes a change, the latest of its kind, and follows it with quick frames. */
+  #send(key, edit) {
     this.#edits.set(key, edit);
-    if (this.#sending) return;
-    this.#sending = true;
-    while (this.#edits.size > 0) {
-      const edits = [...this.#edits.values()];
-      this.#edits.clear();
-      try {
-        const answers = [];
-        for (let side = 0; side < this.sides; side++) answers.push(this.#pool.all({ type: 'change', side, edits }));
-        this.lights = (await Promise.all(answers))[0].lights;
-        this.say('');
-      } catch (error) {
-        this.say(error.message, true);
-      }
-      this.renderer.move(...this.size, this.sides);
-      this.draw();
-      this.#again();
+    this.renderer.move(...this.size, this.sides);
+  }
+
+  /** Tells the workers what has changed since the last frame. */
+  async #flush() {
+    if (this.#edits.size === 0) return;
+    const edits = [...this.#edits.values()];
+    this.#edits.clear();
+    try {
+      const sides = Array.from({ length: this.sides }, (_, side) => side);
+      const answers = await Promise.all(sides.map((side) => this.#pool.all({ type: 'change', side, edits })));
+      this.lights = answers[0].lights;
+      this.say('');
+    } catch (error) {
+      this.say(error.message, true);
     }
-    this.#sending = false;
+    this.draw();
+    this.#again();
   }
 
   cameraMoved() {
-    this.#cameraMoved = true;
     this.state.camera = this.orbit.save();
     this.draw();
     this.#send('look', this.#lookEdit());
@@ -161,9 +175,8 @@ export class App {
   }
 
   home() {
-    this.orbit = new Orbit(this.#author, this.#distance);
     this.state.camera = null;
-    this.#cameraMoved = false;
+    this.keep();
     this.reload();
   }
 
@@ -366,7 +379,7 @@ export class App {
     const scale = legend(show);
     const box = byId('legend');
     box.hidden = !scale;
-    Object.assign(box.style, { left: `${this.box.left + 10}px`, top: `${this.box.top + 10}px` });
+    Object.assign(box.style, { left: `${this.box.left + this.box.width / 2 - 90}px`, top: `${this.box.top + 10}px` });
     if (scale) {
       box.querySelector('.ramp').style.background = scale.css;
       ['low', 'mid', 'high'].forEach((name, i) => { box.querySelector(`.${name}`).textContent = scale.labels[i]; });

@@ -2,7 +2,8 @@
 
 import init, { Scene } from './halflight.js';
 import { App } from './app.js';
-import { Pool } from './engine/pool.js';
+import { acceptFiles } from './files.js';
+import { Pool, compiled } from './engine/pool.js';
 import { attach, attachLight, attachSplit } from './pointer.js';
 import { download, exr, png } from './save.js';
 import { decode } from './state.js';
@@ -15,15 +16,10 @@ import { el } from './ui/widgets.js';
 
 const byId = (id) => document.getElementById(id);
 
-/** The module, compiled once for the page and all workers. */
-async function compiled() {
-  const file = fetch(new URL('./halflight_bg.wasm', import.meta.url));
-  try {
-    return await WebAssembly.compileStreaming(file);
-  } catch {
-    // A server that does not name the type of a module.
-    return WebAssembly.compile(await (await fetch(new URL('./halflight_bg.wasm', import.meta.url))).arrayBuffer());
-  }
+/** The number of workers: as many as there are cores, or as the address says. */
+function workers() {
+  const wanted = Number(new URLSearchParams(location.search).get('workers') ?? navigator.hardwareConcurrency ?? 2);
+  return Math.max(1, Math.min(32, wanted || 1));
 }
 
 function panels(app) {
@@ -64,8 +60,10 @@ async function open(app, source) {
   try {
     await app.load(source);
     showPanels(app);
+    return true;
   } catch (error) {
     app.say(error.message, true);
+    return false;
   }
 }
 
@@ -87,19 +85,18 @@ function actions(app) {
     }
   };
   addEventListener('hashchange', () => location.reload());
+  // Back in sight, it goes on.
   document.addEventListener('visibilitychange', () => app.renderer.pause(app.renderer.paused));
 }
 
 async function start() {
-  const start = performance.now();
-  const module = await compiled();
+  const begun = performance.now();
+  const module = await compiled('./halflight_bg.wasm');
   const arrived = performance.now();
-  await init({ module_or_path: module });
+  const [pool] = await Promise.all([Pool.start(module, workers()), init({ module_or_path: module })]);
   const builtins = Scene.builtins().map((b) => ({ name: b.name, about: b.about }));
   const state = decode(location.hash.slice(1));
   if (!builtins.some(({ name }) => name === state.scene)) state.scene = builtins[0].name;
-  const wanted = Number(new URLSearchParams(location.search).get('workers') ?? navigator.hardwareConcurrency ?? 2);
-  const pool = await Pool.start(module, Math.max(1, Math.min(32, wanted)));
   const app = new App(pool, state);
   panels(app);
   chooser(app, builtins);
@@ -107,11 +104,12 @@ async function start() {
   attach(app.canvas, app);
   attachLight(byId('handle'), app.canvas, app);
   attachSplit(byId('split'), app.canvas, app);
-  app.renderer.addEventListener('tile', () => {
-    app.timing = { start, arrived, picture: performance.now() };
+  acceptFiles(app, (source) => open(app, source));
+  app.renderer.addEventListener('frame', () => {
+    app.timing = { begun, arrived, picture: performance.now() };
   }, { once: true });
   // For the console, and for tests.
-  window.halflight = { app, pool };
+  window.halflight = { app };
   await open(app, { builtin: state.scene });
   if (!pool.parallel) app.say('Workers are not available here: the page renders by itself, more slowly.');
 }

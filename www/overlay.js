@@ -69,12 +69,12 @@ export class Overlay {
     if (from.behind) return [];
     const parts = [];
     for (let i = 0; i < Math.min(RAYS, probe.rays.length / 8); i++) {
-      const ray = probe.rays.subarray(8 * i, 8 * i + 4);
-      const to = this.#clipped(orbit, probe.point, [...ray.subarray(0, 3)]);
+      const ray = probe.rays.slice(8 * i, 8 * i + 4);
+      const to = this.#clipped(orbit, probe.point, ray.slice(0, 3));
       parts.push(svg('line', { class: `ray ${ray[3] ? 'lit' : 'blocked'}`, x1: from.x, y1: from.y, x2: to.x, y2: to.y }));
     }
     const reach = 0.06 * orbit.span(probe.point) * 2;
-    const tip = this.#at(orbit, add(probe.point, [...probe.normal], reach));
+    const tip = this.#at(orbit, add(probe.point, probe.normal, reach));
     parts.push(svg('line', { class: 'normal', x1: from.x, y1: from.y, x2: tip.x, y2: tip.y }));
     parts.push(svg('circle', { class: 'point', cx: from.x, cy: from.y, r: 5 }));
     return parts;

@@ -4,7 +4,7 @@
 export const CHOICES = [
   { name: 'technique', label: 'Technique', values: { auto: 'auto', light: 'lights', bsdf: 'BSDF', mis: 'MIS', control: 'control' } },
   { name: 'lights', label: 'Surface', values: { auto: 'auto', area: 'area', 'solid-angle': 'solid angle', projected: 'projected' } },
-  { name: 'choose', label: 'Light choice', values: { auto: 'auto', all: 'all', uniform: 'uniform', power: 'power', tree: 'tree' }, needs: 'many' },
+  { name: 'choose', label: 'Choice', values: { auto: 'auto', all: 'all', uniform: 'uniform', power: 'power', tree: 'tree' }, needs: 'many' },
   { name: 'environment', label: 'Environment', values: { auto: 'auto', cosine: 'cosine', luminance: 'luminance', compensated: 'compensated', product: 'product' }, needs: 'environment' },
   { name: 'sequence', label: 'Sequence', values: { sobol: 'Sobol', random: 'random' } },
 ];
@@ -25,7 +25,7 @@ export const initial = () => ({
   compare: false,
   equal: 'samples',
   split: 0.5,
-  sides: [{ ...AUTO }, { ...AUTO, lights: 'area' }],
+  sides: [{ ...AUTO }, { ...AUTO, lights: 'area', sequence: 'random' }],
 });
 
 /** Only what differs from the beginning, as text for a link. */

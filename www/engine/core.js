@@ -3,11 +3,13 @@
 // A message is { type, side, ... }: `side` 0 or 1 says which of two scenes, for comparing two ways to
 // render one. Answers are plain objects and typed arrays.
 
-import init, { Files, Scene } from '../halflight.js';
+/** Which module: with readers of files, or the page's own. */
+const MODULES = { false: '../halflight.js', true: '../files/halflight.js' };
 
-/** The fields of an object of the module, as a plain object; the module's is freed. */
+/** The fields of an object of the module, as a plain object with plain arrays; the module's is freed. */
 function plain(object, ...fields) {
-  const out = Object.fromEntries(fields.map((field) => [field, object[field]]));
+  const value = (v) => (ArrayBuffer.isView(v) ? [...v] : v);
+  const out = Object.fromEntries(fields.map((field) => [field, value(object[field])]));
   object.free();
   return out;
 }
@@ -29,7 +31,8 @@ function probe(scene, { x, y, samples }) {
 }
 
 /** A scene: { builtin } or { name, files: [[path, bytes]] }, and perhaps { sky: { name, files } }. */
-function open({ builtin, name, files = [], sky }) {
+function open({ Scene, Files }, { builtin, name, files = [], sky }) {
+  if (!Files) return Scene.builtin(builtin);
   const given = new Files();
   for (const [path, bytes] of [...files, ...(sky?.files ?? [])]) given.add(path, bytes);
   try {
@@ -53,14 +56,18 @@ function change(scene, edits) {
 }
 
 export class Core {
+  #module;
+  #memory;
   #scenes = [];
 
   /** Answers a message. */
   async handle(message) {
     if (message.type === 'init') {
-      await init({ module_or_path: message.module });
+      this.#module = await import(MODULES[message.files]);
+      ({ memory: this.#memory } = await this.#module.default({ module_or_path: message.module }));
       return {};
     }
+    if (message.type === 'memory') return { bytes: this.#memory.buffer.byteLength };
     if (message.type === 'load') return this.#load(message);
     if (message.type === 'close') {
       this.#scenes[message.side]?.free();
@@ -82,10 +89,10 @@ export class Core {
   }
 
   #load({ side, source, edits }) {
-    const scene = open(source);
+    const scene = open(this.#module, source);
     this.#scenes[side]?.free();
     this.#scenes[side] = scene;
-    const author = { facts: facts(scene), view: view(scene), authored: lights(scene) };
+    const author = { facts: facts(scene), view: view(scene) };
     change(scene, edits);
     return { ...author, lights: lights(scene) };
   }

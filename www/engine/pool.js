@@ -60,14 +60,25 @@ class Local {
   end() {}
 }
 
-async function remote(module) {
+async function remote(init) {
   const worker = new Remote(new Worker(new URL('./worker.js', import.meta.url), { type: 'module' }));
   try {
-    await worker.ask({ type: 'init', module });
+    await worker.ask(init);
     return worker;
   } catch (error) {
     worker.end();
     throw error;
+  }
+}
+
+/** A module, compiled once for the page and all workers; `path` is relative to the page's folder. */
+export async function compiled(path) {
+  const url = new URL(`../${path}`, import.meta.url);
+  try {
+    return await WebAssembly.compileStreaming(fetch(url));
+  } catch {
+    // A server that does not name the type of a module.
+    return WebAssembly.compile(await (await fetch(url)).arrayBuffer());
   }
 }
 
@@ -77,14 +88,17 @@ export class Pool {
   /** True when they are workers and not the page. */
   parallel = true;
 
-  /** `count` workers for a compiled module; the page itself when they cannot be had. */
-  static async start(module, count) {
+  /** `count` workers for a compiled module, with readers of files or without; the page itself when they
+   *  cannot be had. */
+  static async start(module, count, files = false) {
     const pool = new Pool();
+    pool.files = files;
+    const init = { type: 'init', module, files };
     try {
-      pool.workers = await Promise.all(Array.from({ length: count }, () => remote(module)));
+      pool.workers = await Promise.all(Array.from({ length: count }, () => remote(init)));
     } catch {
       const local = new Local();
-      await local.ask({ type: 'init', module });
+      await local.ask(init);
       pool.workers = [local];
       pool.parallel = false;
     }
@@ -101,6 +115,9 @@ export class Pool {
   ask(message, transfer) {
     return this.idlest().ask(message, transfer);
   }
+
+  /** True with a module that reads files. */
+  files = false;
 
   idlest() {
     return this.workers.reduce((a, b) => (b.load < a.load ? b : a));

@@ -26,6 +26,8 @@ export class Renderer extends EventTarget {
   /** Frames of late, for telling how many there are in a second. */
   frames = [];
   elapsed = 0;
+  /** Called before a frame, for telling the workers what has moved. */
+  prepare = () => {};
 
   #pool;
   #generation = 0;
@@ -58,6 +60,12 @@ export class Renderer extends EventTarget {
     this.#moving = true;
     this.#moved = performance.now();
     this.restart(width, height, sides);
+  }
+
+  /** Other workers, which must have been told everything. */
+  use(pool) {
+    this.#generation += 1;
+    this.#pool = pool;
   }
 
   /** True while something moves. */
@@ -118,9 +126,11 @@ export class Renderer extends EventTarget {
     const pixels = Math.max(this.rate * (FRAME_MS / 1000) / sides, 2000);
     const scale = Math.max(1, Math.min(8, Math.sqrt((width * height) / pixels)));
     const size = [Math.max(1, Math.round(width / scale)), Math.max(1, Math.round(height / scale))];
+    this.prepare();
     const start = performance.now();
     const films = await Promise.all(this.films.map((_, side) => this.#quick(side, size)));
-    this.#measure(size[0] * size[1] * sides, performance.now() - start);
+    const busy = films.reduce((sum, film) => sum + film.busy, 0);
+    this.#measure(size[0] * size[1] * sides, busy / this.#pool.workers.length);
     if (generation !== this.#generation && this.films.length !== sides) return;
     this.frames = [...this.frames.filter((t) => start - t < 1000), performance.now()];
     this.#tell('frame', { films });
@@ -142,7 +152,8 @@ export class Renderer extends EventTarget {
       const tile = [0, edge(i), width, edge(i + 1)];
       if (tile[1] === tile[3]) return;
       const message = { type: 'render', side, size: [width, height], tile, first: 0, last: 1 };
-      const { pixels } = await worker.ask(message);
+      const { pixels, ms } = await worker.ask(message);
+      film.busy += ms;
       film.paste(tile, pixels);
     }));
     return film;

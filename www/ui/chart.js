@@ -2,7 +2,7 @@
 
 import { digits, el, svg } from './widgets.js';
 
-const [WIDTH, HEIGHT, TOP, BOTTOM, LEFT, GAP] = [292, 168, 14, 30, 34, 16];
+const [WIDTH, HEIGHT, TOP, BOTTOM, LEFT, GAP] = [292, 168, 14, 30, 34, 22];
 const PANEL = (WIDTH - LEFT - GAP) / 2;
 
 const percent = (v) => `${digits(100 * v, 1).replace(/\.0$/, '')} %`;

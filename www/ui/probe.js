@@ -83,7 +83,7 @@ export class ProbePanel {
       el('div', { className: 'meter' }, meter),
       el('table', {}, el('tbody', {}, ...rows)),
       convergence(probe),
-      el('p', { className: 'note' }, `${probe.samples.toLocaleString('en')} samples; the band is one standard error${probe.closed_form === undefined ? '' : ', the dashes are the closed form'}.`),
+      el('p', { className: 'note' }, `${probe.samples.toLocaleString('en')} samples; the band is one standard error${probe.closed_form === undefined ? '' : ', the dashes are the closed form without shadows'}.`),
     );
   }
 }

@@ -24,7 +24,7 @@ export class ShowPanel {
       select('Show', SHOW, state.show, (v) => this.#app.setShow(v)),
       slider('Exposure', { min: -6, max: 6, value: state.exposure, format: (v) => `${v > 0 ? '+' : ''}${v.toFixed(1).replace('-', '−')}`, unit: ' EV' },
         (v) => this.#app.setExposure(Math.round(10 * v) / 10)),
-      slider('Error', { min: 0.05, max: 20, value: state.target, log: true, format: (v) => digits(v, 2), unit: ' %' },
+      slider('Stop at', { min: 0.05, max: 20, value: state.target, log: true, format: (v) => digits(v, 2), unit: ' %' },
         (v) => this.#app.setTarget(Number(v.toPrecision(2)))),
       select('Columns', widths, String(state.width), (v) => this.#app.setWidth(Number(v)))));
   }

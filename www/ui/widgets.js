@@ -19,8 +19,9 @@ export function svg(tag, attributes = {}, ...children) {
   return element;
 }
 
-/** A number with `digits` significant digits. */
-export function digits(value, count = 3) {
+/** A number with `count` significant digits. */
+export function digits(number, count = 3) {
+  const value = Number(Number(number).toPrecision(count));
   if (value === 0 || !Number.isFinite(value)) return String(value);
   const decimals = Math.max(0, count - 1 - Math.floor(Math.log10(Math.abs(value))));
   if (decimals > 6 || Math.abs(value) >= 1e6) return value.toExponential(count - 1).replace('-', '−');
@@ -84,7 +85,7 @@ export function slider(name, { min, max, value, log = false, step, format = digi
 export function numbers(name, labels, values, onInput) {
   const fields = labels.map((label, i) => {
     const field = el('input', { type: 'number', step: 'any', 'aria-label': `${name} ${label}`, title: label });
-    field.value = String(Number(values[i].toPrecision(5)));
+    field.value = String(Number(values[i].toPrecision(4)));
     field.oninput = () => {
       if (Number.isFinite(field.valueAsNumber)) onInput(i, field.valueAsNumber);
     };
