@@ -20,7 +20,7 @@ build() {
     local folder=$1
     shift
     # A variable of the target: build scripts and macros of this machine are not touched.
-    CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS='-Ctarget-feature=+simd128 -Cllvm-args=-inline-threshold=100' \
+    CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS='-Ctarget-feature=+simd128 -Cllvm-args=-inline-threshold=80' \
         scripts/target-env.sh wasm32-unknown-unknown \
         cargo build --locked --quiet --package halflight-wasm --lib --profile www "$@" \
         --target wasm32-unknown-unknown --target-dir "$target_dir/wasm"

@@ -2,7 +2,7 @@
 
 import { Orbit } from './camera.js';
 import { Screen } from './canvas.js';
-import { legend, rendered } from './display.js';
+import { legend, rendered, showLegend } from './display.js';
 import { Renderer } from './engine/renderer.js';
 import { Overlay } from './overlay.js';
 import { CHOICES, encode } from './state.js';
@@ -376,14 +376,7 @@ export class App {
     const { show, exposure, compare, split } = this.state;
     this.screen.style = { show, exposure, split };
     this.screen.all(this.renderer.films);
-    const scale = legend(show);
-    const box = byId('legend');
-    box.hidden = !scale;
-    Object.assign(box.style, { left: `${this.box.left + this.box.width / 2 - 90}px`, top: `${this.box.top + 10}px` });
-    if (scale) {
-      box.querySelector('.ramp').style.background = scale.css;
-      ['low', 'mid', 'high'].forEach((name, i) => { box.querySelector(`.${name}`).textContent = scale.labels[i]; });
-    }
+    showLegend(byId('legend'), legend(show), this.box);
     byId('chart').hidden = !compare;
     this.panels.status.show();
     this.draw();

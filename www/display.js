@@ -70,6 +70,15 @@ export const rendered = (show) => (show === 'visibility' || show === 'occlusion'
 /** The scale beside the picture; undefined for plain radiance. */
 export const legend = (show) => SCALAR[show] && { labels: SCALAR[show].labels, css: SCALAR[show].colours.css };
 
+/** Puts a scale at the top of the picture, or takes it away. */
+export function showLegend(element, scale, { left, top, width }) {
+  element.hidden = !scale;
+  if (!scale) return;
+  Object.assign(element.style, { left: `${left + width / 2 - 90}px`, top: `${top + 10}px` });
+  element.querySelector('.ramp').style.background = scale.css;
+  ['low', 'mid', 'high'].forEach((name, i) => { element.querySelector(`.${name}`).textContent = scale.labels[i]; });
+}
+
 /** Turns pixels [x0, x1) × [y0, y1) of a film into bytes of an image of the same size. */
 export function shade(film, image, [x0, y0, x1, y1], { show, exposure }) {
   const { floats, words, width } = film;

@@ -1,6 +1,7 @@
 // Scenes and skies that are dropped on the picture, or opened.
 
 import { Pool, compiled } from './engine/pool.js';
+import { el } from './ui/widgets.js';
 
 const SKIES = ['hdr', 'exr'];
 
@@ -62,7 +63,7 @@ export function acceptFiles(app, show) {
       Object.assign(state, { camera: what.sky ? kept.camera : null, lights: {}, light: 0 });
       const source = what.sky ? { ...app.source, sky: { name: what.sky, files: bytes } } : { name: what.scene, files: bytes };
       if (await show(source)) {
-        byId('about').textContent = what.scene ?? `${app.facts.name} under ${what.sky}`;
+        named(what.scene ? app.facts.name : `${app.facts.name}, ${what.sky}`);
         if (app.facts.warnings.length === 0) app.say('Shown from files of this computer: a link cannot restore them.');
         return;
       }
@@ -70,6 +71,16 @@ export function acceptFiles(app, show) {
       app.say(error.message, true);
     }
     Object.assign(state, kept);
+  }
+
+  /** What is shown is none of the scenes to choose from. */
+  function named(name) {
+    const select = byId('scene');
+    const option = select.querySelector('option[data-file]') ?? el('option', { 'data-file': '' });
+    option.value = option.textContent = name;
+    select.append(option);
+    select.value = name;
+    byId('about').textContent = 'from files of this computer';
   }
 
   const input = byId('files');

@@ -49,6 +49,7 @@ function chooser(app, builtins) {
   about();
   select.onchange = async () => {
     Object.assign(app.state, { scene: select.value, camera: null, lights: {}, light: 0 });
+    select.querySelector('option[data-file]')?.remove();
     about();
     app.keep();
     await open(app, { builtin: select.value });

@@ -33,8 +33,8 @@ export class Renderer extends EventTarget {
   #generation = 0;
   #moving = false;
   #moved = 0;
-  #running = Promise.resolve();
   #wake = () => {};
+  #ended = false;
 
   constructor(pool) {
     super();
@@ -68,6 +68,12 @@ export class Renderer extends EventTarget {
     this.#pool = pool;
   }
 
+  /** Nothing more is rendered. */
+  end() {
+    this.restart(0, 0, 0);
+    this.#ended = true;
+  }
+
   /** True while something moves. */
   get moving() {
     return this.#moving;
@@ -98,7 +104,7 @@ export class Renderer extends EventTarget {
   }
 
   async #loop() {
-    for (;;) {
+    while (!this.#ended) {
       const film = this.paused && this.films[0]?.samples ? undefined : this.#next();
       if (!film || document.hidden) {
         this.#tell('idle');

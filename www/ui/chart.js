@@ -45,10 +45,10 @@ function panel(histories, key, left, errors, title, format) {
   return parts;
 }
 
-/** What a way of sampling needs for an error, from its history. */
+/** What a way of sampling needs for an error, from its history; beyond it, error falls as 1/√n. */
 function needed(history, key, error) {
   const next = history.findIndex((p) => p.error <= error);
-  if (next < 0) return undefined;
+  if (next < 0) return history.at(-1)[key] * (history.at(-1).error / error) ** 2;
   if (next === 0) return history[0][key];
   const [a, b] = [history[next - 1], history[next]];
   const k = Math.log(a.error / error) / Math.log(a.error / b.error);
@@ -64,13 +64,13 @@ function ratio(left, right, more, less) {
 
 /** The comparison in words. */
 export function verdict([left, right]) {
-  const error = Math.max(left.at(-1)?.error ?? NaN, right.at(-1)?.error ?? NaN);
+  const error = Math.min(left.at(-1)?.error ?? NaN, right.at(-1)?.error ?? NaN);
   if (left.length < 3 || right.length < 3 || !(error > 0)) return '';
   const need = (key) => [needed(left, key, error), needed(right, key, error)];
   const samples = ratio(...need('samples'), 'more', 'fewer');
   const time = ratio(...need('seconds'), 'more', 'less');
   const parts = [samples ? `${samples} samples` : 'as many samples', time ? `${time} time` : 'as much time'];
-  return `For an error of ${digits(100 * error, 2)} % the right needs ${parts.join(' and ')}.`;
+  return `For an error of ${digits(100 * error, 2)} % the right needs about ${parts.join(' and ')}.`;
 }
 
 /** Draws the histories of both sides. */

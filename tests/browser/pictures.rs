@@ -1,0 +1,127 @@
+//! What the page renders, and what it says about it.
+
+use crate::driver::Res;
+use crate::page::{rendered, with_page};
+use halflight_wasm::Scene;
+use serde_json::Value;
+
+#[test]
+fn the_page_shows_a_picture_and_gets_to_its_error() -> Res<()> {
+    with_page("the first picture", |page| {
+        page.open("", 1)?;
+        let ms = page.number("halflight.app.timing.picture - halflight.app.timing.arrived")?;
+        println!("first picture {ms:.0} ms after the module");
+        page.run("halflight.app.setWidth(240); halflight.app.setTarget(8)")?;
+        page.wait("document.body.dataset.state == 'done'")?;
+        let error = page.text("error")?;
+        let percent: f64 = error.trim_end_matches(" %").parse()?;
+        assert!(percent <= 8.0, "{error}");
+        assert!(page.number("document.getElementById('spp').textContent * 1")? >= 8.0);
+        Ok(())
+    })
+}
+
+#[test]
+fn the_page_and_the_command_line_have_the_same_bits() -> Res<()> {
+    with_page("the bits of the command line", |page| {
+        for (scene, query) in [
+            ("still-life", "?workers=2"),
+            ("penumbra", "?workers=1"),
+            ("lanterns", "?workers=3"),
+            ("morning", "?workers=2"),
+        ] {
+            page.open(query, 1)?;
+            page.select("Scene", scene)?;
+            page.wait(&format!("halflight.app.facts.name == '{scene}'"))?;
+            page.render(96, 6)?;
+            let expected = rendered(page.folder.path(), &format!("{scene} --width 96 --spp 6"))?;
+            assert!(page.pixels()? == expected, "{scene}: other bits than the command line's");
+        }
+        page.select("Technique", "mis")?;
+        page.select("Sequence", "random")?;
+        page.render(96, 6)?;
+        let line = "morning --width 96 --spp 6 --technique mis --sequence random";
+        assert!(page.pixels()? == rendered(page.folder.path(), line)?, "{line}");
+        Ok(())
+    })
+}
+
+#[test]
+fn without_workers_the_page_renders_the_same_by_itself() -> Res<()> {
+    with_page("no workers", |page| {
+        let script = serde_json::json!({ "source": "delete globalThis.Worker" });
+        page.cdp("Page.addScriptToEvaluateOnNewDocument", &script)?;
+        page.open("", 1)?;
+        assert!(page.text("message")?.contains("Workers are not available"));
+        page.select("Scene", "cornell")?;
+        page.wait("halflight.app.facts.name == 'cornell'")?;
+        page.render(48, 4)?;
+        assert!(page.pixels()? == rendered(page.folder.path(), "cornell --width 48 --spp 4")?);
+        Ok(())
+    })
+}
+
+#[test]
+fn two_ways_are_compared_and_the_chart_grows() -> Res<()> {
+    with_page("comparing two ways", |page| {
+        page.open("", 1)?;
+        page.select("Scene", "penumbra")?;
+        page.wait("halflight.app.facts.name == 'penumbra'")?;
+        page.run("halflight.app.setWidth(160); document.querySelector('#sampling input').click()")?;
+        page.wait("halflight.app.renderer.films.length == 2")?;
+        page.samples(4)?;
+        let early = page.number("document.querySelectorAll('#chart polyline')[1].points.numberOfItems")?;
+        page.samples(16)?;
+        page.run("halflight.app.renderer.pause(true)")?;
+        let late = page.number("document.querySelectorAll('#chart polyline')[1].points.numberOfItems")?;
+        assert!(late > early, "{late} points after {early}");
+        let words = page.run("return document.querySelector('#chart figcaption').textContent")?;
+        let words = words.as_str().unwrap_or_default();
+        assert!(words.contains("the right needs about") && words.contains("more samples"), "{words}");
+        // Area sampling with random numbers is worse here, and each side shows its own film.
+        assert!(
+            page.number("halflight.app.renderer.films[1].error / halflight.app.renderer.films[0].error")?
+                > 2.0
+        );
+        page.run("document.getElementById('split').focus()")?;
+        page.keys("\u{e012}\u{e012}")?;
+        assert!((page.number("halflight.app.state.split")? - 0.46).abs() < 1e-6);
+        Ok(())
+    })
+}
+
+#[test]
+fn the_probe_says_what_the_core_says() -> Res<()> {
+    with_page("the probe", |page| {
+        page.open("", 1)?;
+        page.run("halflight.app.setWidth(480)")?;
+        page.samples(1)?;
+        page.run("return halflight.app.probeAt(0.4, 0.93)")?;
+        page.wait("halflight.app.probe?.samples == 4096")?;
+        let seen = page.run("return halflight.app.probe")?;
+        let mut scene = Scene::builtin("still-life").map_err(|_| "no scene")?;
+        scene.resize(480, 320).map_err(|_| "no size")?;
+        let here = scene.probe(192, 297, 4096).map_err(|_| "no probe")?.ok_or("no surface")?;
+        let numbers = |key: &str| -> Vec<f64> {
+            seen[key].as_array().into_iter().flatten().filter_map(Value::as_f64).collect()
+        };
+        assert_eq!(numbers("means"), here.means);
+        assert_eq!(numbers("errors"), here.errors);
+        assert_eq!(seen["unshadowed"].as_f64(), Some(here.unshadowed));
+        assert_eq!(seen["closed_form"].as_f64(), here.closed_form);
+        // The samples agree with the closed form.
+        let exact = here.closed_form.ok_or("no closed form")?;
+        assert!((here.unshadowed / exact - 1.0).abs() < 1e-3, "{} {exact}", here.unshadowed);
+        assert!(page.text("probe")?.contains("of the light arrives"));
+        assert!(page.number("document.querySelectorAll('#overlay .ray').length")? > 10.0);
+        Ok(())
+    })
+}
+
+#[test]
+fn the_element_shows_a_scene_in_any_page() -> Res<()> {
+    with_page("the element", |page| {
+        page.goto(&format!("{}example.html", page.url()))?;
+        page.wait("document.querySelector('halflight-view').renderer?.films[0].samples >= 2")
+    })
+}
