@@ -28,5 +28,5 @@ build() {
         "$target_dir/wasm/wasm32-unknown-unknown/www/halflight_wasm.wasm" "$folder"
     echo "$folder: module of $(($(gzip -9c "$folder/halflight_bg.wasm" | wc -c) / 1024)) KiB, gzipped"
 }
-build "$out"
-build "$out/files" --features files
+build "$out" --no-default-features
+build "$out/files"

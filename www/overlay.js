@@ -61,6 +61,7 @@ export class Overlay {
     this.#handle.style.top = `${this.offset[1] + cy}px`;
     const away = behind || cx !== px || cy !== py;
     this.#handle.classList.toggle('away', away);
+    this.#handle.classList.toggle('flip', cx > width / 2);
     this.#handle.title = away ? 'The light, outside of the picture: drag to move it' : 'The light: drag to move it; Shift drags nearer and farther';
   }
 

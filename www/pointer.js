@@ -99,6 +99,7 @@ export function attach(canvas, app) {
 export function attachLight(handle, canvas, app) {
   let last;
   const move = (dx, dy, deep) => {
+    handle.classList.add('known');
     const light = app.currentLight();
     const step = (2 * app.orbit.span(light.position)) / canvas.getBoundingClientRect().width;
     const { right, trueUp, forward } = app.orbit;

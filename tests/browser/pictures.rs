@@ -11,6 +11,10 @@ fn the_page_shows_a_picture_and_gets_to_its_error() -> Res<()> {
         page.open("", 1)?;
         let ms = page.number("halflight.app.timing.picture - halflight.app.timing.arrived")?;
         println!("first picture {ms:.0} ms after the module");
+        let foreign = page.run(
+            "return performance.getEntriesByType('resource').map((e) => e.name).filter((n) => !n.startsWith(location.origin))",
+        )?;
+        assert_eq!(foreign.as_array().map(Vec::len), Some(0), "{foreign}");
         page.run("halflight.app.setWidth(240); halflight.app.setTarget(8)")?;
         page.wait("document.body.dataset.state == 'done'")?;
         let error = page.text("error")?;

@@ -33,6 +33,8 @@ export class Renderer extends EventTarget {
   #generation = 0;
   #moving = false;
   #moved = 0;
+  /** True when something has moved since the last frame. */
+  #due = false;
   #wake = () => {};
   #ended = false;
 
@@ -57,7 +59,7 @@ export class Renderer extends EventTarget {
 
   /** As `restart`, for something that is being moved: quick frames first. */
   move(width, height, sides) {
-    this.#moving = true;
+    this.#moving = this.#due = true;
     this.#moved = performance.now();
     this.restart(width, height, sides);
   }
@@ -120,7 +122,7 @@ export class Renderer extends EventTarget {
 
   /** A frame at a resolution that takes a fraction of a second. */
   async #frame() {
-    if (performance.now() - this.#moved > STILL_MS) {
+    if (!this.#due && performance.now() - this.#moved > STILL_MS) {
       this.#moving = false;
       this.frames = [];
       this.#tell('still');
@@ -132,6 +134,7 @@ export class Renderer extends EventTarget {
     const pixels = Math.max(this.rate * (FRAME_MS / 1000) / sides, 2000);
     const scale = Math.max(1, Math.min(8, Math.sqrt((width * height) / pixels)));
     const size = [Math.max(1, Math.round(width / scale)), Math.max(1, Math.round(height / scale))];
+    this.#due = false;
     this.prepare();
     const start = performance.now();
     const films = await Promise.all(this.films.map((_, side) => this.#quick(side, size)));
