@@ -48,6 +48,7 @@ export class App {
     this.renderer.addEventListener('pass', () => { this.#passed(); });
     this.renderer.addEventListener('still', () => this.#still());
     this.renderer.addEventListener('idle', () => this.panels.status.show());
+    this.renderer.addEventListener('failed', ({ detail }) => this.say(detail.error.message, true));
     new ResizeObserver(() => this.fit()).observe(byId('frame'));
   }
 
@@ -113,6 +114,8 @@ export class App {
 
   /** Tells the workers the choices of both sides, and begins anew. */
   async #apply() {
+    // Nobody may work on a side that goes away.
+    if (!this.state.compare) this.renderer.restart(...this.size, 1);
     if (this.state.compare) await this.#second();
     else await this.#pool.all({ type: 'close', side: 1 });
     await this.#pool.all({ type: 'change', side: 0, edits: this.#choices(0) });

@@ -64,9 +64,9 @@ export class Renderer extends EventTarget {
     this.restart(width, height, sides);
   }
 
-  /** Other workers, which must have been told everything. */
+  /** Other workers; they render when the next `restart` or `move` says what. */
   use(pool) {
-    this.#generation += 1;
+    this.restart(0, 0, 0);
     this.#pool = pool;
   }
 
@@ -107,17 +107,32 @@ export class Renderer extends EventTarget {
 
   async #loop() {
     while (!this.#ended) {
-      const film = this.paused && this.films[0]?.samples ? undefined : this.#next();
-      if (!film || document.hidden) {
-        this.#tell('idle');
-        await new Promise((resolve) => { this.#wake = resolve; setTimeout(resolve, 500); });
-        this.#wake = () => {};
-      } else if (this.#moving) {
-        await this.#frame();
-      } else {
-        await this.#pass(film);
+      try {
+        await this.#step();
+      } catch (error) {
+        this.restart(0, 0, 0);
+        this.#tell('failed', { error });
       }
     }
+  }
+
+  /** A frame, a pass, or a rest. */
+  async #step() {
+    const film = this.paused && this.films[0]?.samples ? undefined : this.#next();
+    if (!film || document.hidden) {
+      this.#tell('idle');
+      await this.#rest(500);
+    } else if (this.#moving) {
+      await this.#frame();
+    } else {
+      await this.#pass(film);
+    }
+  }
+
+  /** Waits until something happens, but not for long (ms). */
+  async #rest(most) {
+    await new Promise((resolve) => { this.#wake = resolve; setTimeout(resolve, most); });
+    this.#wake = () => {};
   }
 
   /** A frame at a resolution that takes a fraction of a second. */
@@ -145,9 +160,7 @@ export class Renderer extends EventTarget {
     this.#tell('frame', { films });
     // What has not moved since is not worth another frame.
     if (generation === this.#generation) {
-      const wait = Math.max(0, STILL_MS - (performance.now() - this.#moved));
-      await new Promise((resolve) => { this.#wake = resolve; setTimeout(resolve, wait); });
-      this.#wake = () => {};
+      await this.#rest(Math.max(0, STILL_MS - (performance.now() - this.#moved)));
     }
   }
 
