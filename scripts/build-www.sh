@@ -26,7 +26,12 @@ build() {
         --target wasm32-unknown-unknown --target-dir "$target_dir/wasm"
     "$target_dir/tool/halflight-bindgen" \
         "$target_dir/wasm/wasm32-unknown-unknown/www/halflight_wasm.wasm" "$folder"
-    echo "$folder: module of $(($(gzip -9c "$folder/halflight_bg.wasm" | wc -c) / 1024)) KiB, gzipped"
+    bytes=$(gzip -9c "$folder/halflight_bg.wasm" | wc -c)
+    echo "$folder: module of $((bytes / 1024)) KiB, gzipped"
 }
 build "$out" --no-default-features
+if [ "$bytes" -gt $((300 * 1024)) ]; then
+    echo "build-www: the page's module must not be larger than 300 KiB" >&2
+    exit 1
+fi
 build "$out/files"

@@ -31,6 +31,7 @@ export class App {
   #probe = null;
   #loading = 0;
   #author;
+  #keeping;
 
   constructor(pool, state) {
     this.#pool = pool;
@@ -65,8 +66,6 @@ export class App {
     message.textContent = text;
     message.classList.toggle('bad', bad);
   }
-
-  // Scenes
 
   /** Shows a scene, see `open` in engine/core.js. The state's camera, lights and choices are applied. */
   async load(source) {
@@ -307,10 +306,11 @@ export class App {
     if (!this.#probed) return;
     const [place, size] = [this.#probed, this.size];
     const [x, y] = [Math.floor(place[0] * size[0]), Math.floor(place[1] * size[1])];
-    const { probe } = await this.#pool.ask({ type: 'probe', side: 0, size, x, y, samples: PROBE[level] });
-    if (place !== this.#probed) return;
+    const message = { type: 'probe', side: 0, size, x, y, samples: PROBE[level] };
+    const probe = await this.#pool.ask(message).then((answer) => answer.probe, () => undefined);
+    if (place !== this.#probed || probe === undefined) return;
     this.#probe = probe;
-    const names = { auto: 'auto', area: 'area', 'solid-angle': 'solid angle', projected: 'projected' };
+    const { values: names } = CHOICES.find(({ name }) => name === 'lights');
     this.panels.probe.show(probe, names[this.state.sides[0].lights]);
     this.draw();
     if (!probe) this.say('There is no surface at this point.');
@@ -374,7 +374,7 @@ export class App {
     if (this.state.compare) chart(byId('chart'), this.renderer.films.map((film) => film.history));
   }
 
-  /** Shows everything that does not come from the renderer. */
+  /** All that does not come from the renderer. */
   refresh() {
     const { show, exposure, compare, split } = this.state;
     this.screen.style = { show, exposure, split };
@@ -390,8 +390,6 @@ export class App {
     clearTimeout(this.#keeping);
     this.#keeping = setTimeout(() => history.replaceState(null, '', this.link()), 250);
   }
-
-  #keeping;
 
   link() {
     const text = encode(this.state);

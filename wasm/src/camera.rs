@@ -11,16 +11,22 @@ use wasm_bindgen::prelude::*;
 #[derive(Debug, Clone, PartialEq)]
 pub struct View {
     /// The eye, or the middle of the orthographic window: x, y, z (m).
+    #[wasm_bindgen(readonly)]
     pub origin: Vec<f32>,
     /// Unit vector to the right in the picture.
+    #[wasm_bindgen(readonly)]
     pub right: Vec<f32>,
     /// Unit vector upward in the picture.
+    #[wasm_bindgen(readonly)]
     pub up: Vec<f32>,
     /// Unit vector into the picture.
+    #[wasm_bindgen(readonly)]
     pub forward: Vec<f32>,
     /// True for parallel rays.
+    #[wasm_bindgen(readonly)]
     pub orthographic: bool,
     /// Half of the picture's width: at distance 1, or of the window (m) when orthographic.
+    #[wasm_bindgen(readonly)]
     pub half_width: f32,
 }
 

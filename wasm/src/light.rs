@@ -17,22 +17,30 @@ use wasm_bindgen::prelude::*;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Light {
     /// Its name in the scene, or that of its kind.
+    #[wasm_bindgen(readonly)]
     pub name: String,
     /// `rectangle`, `disk`, `sphere`, `point`, `directional` and `constant` can be changed into one
     /// another; the others are `cylinder`, `mesh`, `spot`, `distant` and `painted`.
+    #[wasm_bindgen(readonly)]
     pub kind: String,
     /// Its middle (m); of lights without a place, the origin.
+    #[wasm_bindgen(readonly)]
     pub position: Vec<f32>,
     /// Where it shines: the unit normal of a flat light, the way of parallel light.
+    #[wasm_bindgen(readonly)]
     pub direction: Vec<f32>,
     /// Full width and height (m); a sphere and a disk have their diameter.
+    #[wasm_bindgen(readonly)]
     pub size: Vec<f32>,
     /// Intensity straight ahead (W sr⁻¹) of lights with a place, irradiance (W m⁻²) of parallel light,
     /// radiance (W m⁻² sr⁻¹) of one all around: red, green, blue.
+    #[wasm_bindgen(readonly)]
     pub strength: Vec<f32>,
     /// Corners of a flat light, for drawing it: x, y, z each (m).
+    #[wasm_bindgen(readonly)]
     pub outline: Vec<f32>,
     /// True when [`crate::Scene::set_light`] can change it.
+    #[wasm_bindgen(readonly)]
     pub editable: bool,
 }
 

@@ -21,16 +21,22 @@ const RAY: usize = 8;
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProbedLight {
     /// Its index in the scene's table of lights.
+    #[wasm_bindgen(readonly)]
     pub light: u32,
     /// Its kind.
+    #[wasm_bindgen(readonly)]
     pub kind: String,
     /// Luminance of the irradiance that arrives from it (W m⁻²).
+    #[wasm_bindgen(readonly)]
     pub arriving: f64,
     /// The same if nothing were in the way.
+    #[wasm_bindgen(readonly)]
     pub unshadowed: f64,
     /// The closed form of the latter; `undefined` where there is none.
+    #[wasm_bindgen(readonly)]
     pub closed_form: Option<f64>,
     /// Mean density of its samples (sr⁻¹); `undefined` of a delta light.
+    #[wasm_bindgen(readonly)]
     pub density: Option<f64>,
 }
 
@@ -39,27 +45,38 @@ pub struct ProbedLight {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Probe {
     /// The point (m).
+    #[wasm_bindgen(readonly)]
     pub point: Vec<f32>,
     /// Unit normal on the side that is seen.
+    #[wasm_bindgen(readonly)]
     pub normal: Vec<f32>,
     /// Distance from the camera (m).
+    #[wasm_bindgen(readonly)]
     pub distance: f32,
     /// Samples that the numbers come from.
+    #[wasm_bindgen(readonly)]
     pub samples: u32,
     /// Mean of the irradiance: red, green, blue (W m⁻²).
+    #[wasm_bindgen(readonly)]
     pub irradiance: Vec<f32>,
     /// Luminance of the irradiance after 1, 2, 4 … samples (W m⁻²).
+    #[wasm_bindgen(readonly)]
     pub means: Vec<f64>,
     /// Its standard error after as many; 0 after the first.
+    #[wasm_bindgen(readonly)]
     pub errors: Vec<f64>,
     /// Luminance of the irradiance if nothing were in the way, by the same samples (W m⁻²).
+    #[wasm_bindgen(readonly)]
     pub unshadowed: f64,
     /// The same in closed form; `undefined` when a light has none.
+    #[wasm_bindgen(readonly)]
     pub closed_form: Option<f64>,
     /// Each ray as eight numbers: where it ends (m), 1 when it arrives or 0, the density (sr⁻¹, 0 of
     /// a delta light), the probability of the light, the luminance of its irradiance (W m⁻²), the light.
+    #[wasm_bindgen(readonly)]
     pub rays: Vec<f32>,
     /// What each light does, the strongest first; none of more than there are rays.
+    #[wasm_bindgen(readonly)]
     pub lights: Vec<ProbedLight>,
 }
 

@@ -38,6 +38,7 @@ class Remote {
 
   end() {
     this.#worker.terminate();
+    this.#fail('the worker has been ended');
   }
 }
 

@@ -107,9 +107,12 @@ export class Renderer extends EventTarget {
 
   async #loop() {
     while (!this.#ended) {
+      const generation = this.#generation;
       try {
         await this.#step();
       } catch (error) {
+        // Of work that nobody waits for any more, nothing is said.
+        if (generation !== this.#generation) continue;
         this.restart(0, 0, 0);
         this.#tell('failed', { error });
       }
