@@ -30,7 +30,7 @@ fn a_scene_with_its_files_is_shown_and_a_broken_one_is_explained() -> Res<()> {
         page.choose_files("#files", &[broken])?;
         page.wait("document.getElementById('message').classList.contains('bad')")?;
         let message = page.text("message")?;
-        assert!(message.contains("broken.xml:2:3") && message.contains("sphere"), "{message}");
+        assert!(message.contains("broken.xml:2: ") && message.contains("sphere"), "{message}");
         // The scene before is still there.
         page.render(60, 4)?;
         let text = page.folder.path().join("notes.txt");
