@@ -94,7 +94,7 @@ impl Camera {
     ///
     /// # Errors
     /// When an extent is not positive and finite, or the view not finite.
-    pub fn perspective(view: View, half_width: f32, half_height: f32) -> Result<Self, CameraError> {
+    pub const fn perspective(view: View, half_width: f32, half_height: f32) -> Result<Self, CameraError> {
         Self::new(view, Projection::Perspective, half_width, half_height)
     }
 
@@ -104,23 +104,24 @@ impl Camera {
     ///
     /// # Errors
     /// When an extent is not positive and finite, or the view not finite.
-    pub fn orthographic(view: View, half_width: f32, half_height: f32) -> Result<Self, CameraError> {
+    pub const fn orthographic(view: View, half_width: f32, half_height: f32) -> Result<Self, CameraError> {
         Self::new(view, Projection::Orthographic, half_width, half_height)
     }
 
-    fn new(
+    const fn new(
         view: View,
         projection: Projection,
         half_width: f32,
         half_height: f32,
     ) -> Result<Self, CameraError> {
-        for extent in [half_width, half_height] {
-            if !(extent > 0.0 && extent < f32::INFINITY) {
-                return Err(CameraError::Extent(extent));
-            }
+        if !(half_width > 0.0 && half_width < f32::INFINITY) {
+            return Err(CameraError::Extent(half_width));
         }
-        let finite = [view.origin, view.right, view.up, view.forward].iter().all(|v| v.is_finite());
-        if !finite {
+        if !(half_height > 0.0 && half_height < f32::INFINITY) {
+            return Err(CameraError::Extent(half_height));
+        }
+        let View { origin, right, up, forward } = view;
+        if !(is_finite(origin) && is_finite(right) && is_finite(up) && is_finite(forward)) {
             return Err(CameraError::Direction);
         }
         Ok(Self { view, projection, half_width, half_height, near: 0.0, far: f32::INFINITY })
@@ -130,12 +131,19 @@ impl Camera {
     ///
     /// # Errors
     /// When they are not `0 ≤ near < far`.
-    pub fn with_clip(self, near: f32, far: f32) -> Result<Self, CameraError> {
+    pub const fn with_clip(self, near: f32, far: f32) -> Result<Self, CameraError> {
         if near >= 0.0 && near < far && near.is_finite() {
             Ok(Self { near, far, ..self })
         } else {
             Err(CameraError::Clip { near, far })
         }
+    }
+
+    /// Half of the picture's width and height: at distance 1 where rays go through one point, else in
+    /// the world (m).
+    #[must_use]
+    pub const fn half_extents(&self) -> (f32, f32) {
+        (self.half_width, self.half_height)
     }
 
     /// The ray through a place in the picture, and how far it reaches.
@@ -157,6 +165,12 @@ impl Camera {
             }
         }
     }
+}
+
+/// [`Vec3::is_finite`], for constants.
+const fn is_finite(v: Vec3) -> bool {
+    let [x, y, z] = v.to_array();
+    x.is_finite() && y.is_finite() && z.is_finite()
 }
 
 #[cfg(test)]

@@ -48,7 +48,7 @@ impl Filter {
     }
 
     /// The filter's length in pixels, which must be positive and finite.
-    fn extent(&self) -> f32 {
+    const fn extent(&self) -> f32 {
         match *self {
             Self::Box { radius } | Self::Tent { radius } => radius,
             Self::Gaussian { stddev } => stddev,
@@ -197,8 +197,8 @@ impl Film {
     ///
     /// # Errors
     /// When a side is 0 or above [`MAX_RESOLUTION`], or the filter has no usable extent.
-    pub fn new(width: u32, height: u32, filter: Filter) -> Result<Self, FilmError> {
-        if !(1..=MAX_RESOLUTION).contains(&width) || !(1..=MAX_RESOLUTION).contains(&height) {
+    pub const fn new(width: u32, height: u32, filter: Filter) -> Result<Self, FilmError> {
+        if width == 0 || width > MAX_RESOLUTION || height == 0 || height > MAX_RESOLUTION {
             return Err(FilmError::Resolution { width, height });
         }
         let extent = filter.extent();

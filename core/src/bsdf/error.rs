@@ -32,6 +32,11 @@ pub enum BsdfError {
         /// Its value.
         value: Rgb,
     },
+    /// A number that follows from others does not.
+    Derived {
+        /// Which one.
+        field: &'static str,
+    },
 }
 
 impl fmt::Display for BsdfError {
@@ -52,6 +57,7 @@ impl fmt::Display for BsdfError {
                 f,
                 "the index of refraction inside is {value} times that outside; it must be between 1 and 4 times"
             ),
+            Self::Derived { field } => write!(f, "{field} does not follow from the other numbers"),
             Self::ConductorIndex { field, value: Rgb { r, g, b } } => {
                 write!(f, "{field} is ({r}, {g}, {b}); each channel must be between 0 and 10000")
             }

@@ -85,6 +85,19 @@ impl GgxConductor {
     pub fn index(&self) -> Option<(Rgb, Rgb)> {
         self.metal.map(|m| (m.eta, m.k))
     }
+
+    /// A metal that was checked before: for constants; see [`crate::Scene::baked`].
+    ///
+    /// * `alpha` – roughnesses along the tangent and across it, `index` – refractive index and extinction
+    ///   coefficient
+    #[must_use]
+    pub const fn baked(reflectance: Rgb, alpha: [f32; 2], index: Option<(Rgb, Rgb)>) -> Self {
+        let metal = match index {
+            Some((eta, k)) => Some(Conductor { eta, k }),
+            None => None,
+        };
+        Self { reflectance, facets: Ggx::baked(alpha), metal }
+    }
 }
 
 impl Bsdf for GgxConductor {
@@ -122,5 +135,10 @@ impl Bsdf for GgxConductor {
     fn needs_tangent(&self) -> bool {
         let [along, across] = self.alpha();
         along != across
+    }
+
+    fn check(&self) -> Result<(), BsdfError> {
+        let made = Self::anisotropic(self.reflectance, self.alpha())?;
+        self.index().map_or(Ok(made), |(eta, k)| made.with_index(eta, k)).map(drop)
     }
 }

@@ -27,6 +27,12 @@ impl Lambert {
     pub const fn reflectance(&self) -> Rgb {
         self.reflectance
     }
+
+    /// A matte surface that was checked before: for constants; see [`crate::Scene::baked`].
+    #[must_use]
+    pub const fn baked(reflectance: Rgb) -> Self {
+        Self { reflectance }
+    }
 }
 
 impl Bsdf for Lambert {
@@ -57,5 +63,9 @@ impl Bsdf for Lambert {
 
     fn is_diffuse(&self) -> bool {
         true
+    }
+
+    fn check(&self) -> Result<(), BsdfError> {
+        Self::new(self.reflectance).map(drop)
     }
 }

@@ -32,6 +32,11 @@ impl Ggx {
         Ok(Self { alpha })
     }
 
+    /// What was checked before.
+    pub(super) const fn baked(alpha: [f32; 2]) -> Self {
+        Self { alpha }
+    }
+
     /// Roughness along `x` and `y`.
     pub(super) const fn alpha(&self) -> [f32; 2] {
         self.alpha

@@ -68,6 +68,14 @@ pub trait Bsdf: Copy {
     fn is_black(&self) -> bool {
         self.albedo().is_black()
     }
+
+    /// Checks a model that was made without checks, as those in a program's constants are.
+    ///
+    /// # Errors
+    /// What the checking constructor says. A model without another constructor has nothing to check.
+    fn check(&self) -> Result<(), BsdfError> {
+        Ok(())
+    }
 }
 
 /// Any of the models: what a frontend that reads arbitrary scenes uses.
@@ -123,5 +131,9 @@ impl Bsdf for AnyBsdf {
     #[inline]
     fn needs_tangent(&self) -> bool {
         each_bsdf!(self, b => b.needs_tangent())
+    }
+
+    fn check(&self) -> Result<(), BsdfError> {
+        each_bsdf!(self, b => b.check())
     }
 }

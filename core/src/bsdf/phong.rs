@@ -66,6 +66,20 @@ impl Phong {
     fn one_minus_cos_alpha(wo: Vec3, wi: Vec3) -> f32 {
         0.5 * wi.distance_squared(Vec3::new(-wo.x, -wo.y, wo.z))
     }
+
+    /// What was checked before: for constants; see [`crate::Scene::baked`].
+    ///
+    /// * `specular_pmf` – as [`Phong::specular_pmf`] said
+    #[must_use]
+    pub const fn baked(diffuse: Rgb, specular: Rgb, exponent: f32, specular_pmf: f32) -> Self {
+        Self { diffuse, specular, exponent, specular_pmf }
+    }
+
+    /// Probability of sampling the highlight.
+    #[must_use]
+    pub const fn specular_pmf(&self) -> f32 {
+        self.specular_pmf
+    }
 }
 
 impl Bsdf for Phong {
@@ -104,5 +118,10 @@ impl Bsdf for Phong {
 
     fn albedo(&self) -> Rgb {
         self.diffuse + self.specular
+    }
+
+    fn check(&self) -> Result<(), BsdfError> {
+        let made = Self::new(self.diffuse, self.specular, self.exponent)?;
+        if made == *self { Ok(()) } else { Err(BsdfError::Derived { field: "specular_pmf" }) }
     }
 }

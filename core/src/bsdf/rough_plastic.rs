@@ -140,6 +140,67 @@ impl RoughPlastic {
         let base = through * (1.0 - self.specular_weight);
         if facets > 0.0 { facets / (facets + base) } else { 0.0 }
     }
+
+    /// All numbers that describe it, those that took long to work out included: what
+    /// [`RoughPlastic::baked`] takes. Their order is this crate's own.
+    #[must_use]
+    pub const fn to_numbers(&self) -> [f32; Self::NUMBERS] {
+        let (d, s, b, t) = (self.diffuse, self.specular, self.base, self.through.to_numbers());
+        let nonlinear = if self.nonlinear { 1.0 } else { 0.0 };
+        let mut all = [0.0; Self::NUMBERS];
+        let own = [
+            d.r,
+            d.g,
+            d.b,
+            s.r,
+            s.g,
+            s.b,
+            self.facets.alpha()[0],
+            self.eta,
+            nonlinear,
+            b.r,
+            b.g,
+            b.b,
+            self.internal_reflectance,
+            self.facing,
+            self.specular_weight,
+        ];
+        let mut i = 0;
+        while i < all.len() {
+            all[i] = if i < own.len() { own[i] } else { t[i - own.len()] };
+            i += 1;
+        }
+        all
+    }
+
+    /// How many numbers describe it.
+    pub const NUMBERS: usize = 15 + Transmittance::NUMBERS;
+
+    /// Plastic that was checked before: for constants; see [`crate::Scene::baked`].
+    ///
+    /// * `numbers` – as [`RoughPlastic::to_numbers`] gave them
+    #[must_use]
+    pub const fn baked(numbers: [f32; Self::NUMBERS]) -> Self {
+        let n = &numbers;
+        let mut through = [0.0; Transmittance::NUMBERS];
+        let mut i = 0;
+        while i < through.len() {
+            through[i] = n[n.len() - through.len() + i];
+            i += 1;
+        }
+        Self {
+            diffuse: Rgb::new(n[0], n[1], n[2]),
+            specular: Rgb::new(n[3], n[4], n[5]),
+            facets: Ggx::baked([n[6]; 2]),
+            eta: n[7],
+            nonlinear: n[8] != 0.0,
+            base: Rgb::new(n[9], n[10], n[11]),
+            through: Transmittance::baked(through),
+            internal_reflectance: n[12],
+            facing: n[13],
+            specular_weight: n[14],
+        }
+    }
 }
 
 impl Bsdf for RoughPlastic {
@@ -179,5 +240,27 @@ impl Bsdf for RoughPlastic {
         let out = (1.0 - self.internal_reflectance) * self.eta * self.eta;
         let base = self.base * (self.through.at(1.0) * out / FRAC_1_PI);
         base + self.specular * self.facing
+    }
+
+    /// That the coat's transmittance is that of its roughness is not checked: it lies in `[0, 1]` whatever
+    /// its numbers are, as long as they are numbers.
+    fn check(&self) -> Result<(), BsdfError> {
+        check_reflectance("the diffuse reflectance", self.diffuse)?;
+        check_reflectance("the specular reflectance", self.specular)?;
+        Ggx::new(self.facets.alpha())?;
+        if !(1.0..=MAX_ETA).contains(&self.eta) {
+            return Err(BsdfError::RelativeIndex(self.eta));
+        }
+        for (field, ok) in [
+            ("the transmittance", self.through.to_numbers().iter().all(|n| n.is_finite())),
+            ("the internal reflectance", (0.0..1.0).contains(&self.internal_reflectance)),
+            ("the reflectance of a facet", self.facing == dielectric(1.0, self.eta)),
+            ("what the base reflects", self.prepared() == *self),
+        ] {
+            if !ok {
+                return Err(BsdfError::Derived { field });
+            }
+        }
+        Ok(())
     }
 }

@@ -38,6 +38,32 @@ pub(super) struct Transmittance {
 }
 
 impl Transmittance {
+    /// How many numbers describe it.
+    pub(super) const NUMBERS: usize = TERMS + 2;
+
+    /// The numbers that describe it.
+    pub(super) const fn to_numbers(self) -> [f32; Self::NUMBERS] {
+        let mut all = [self.nearest; Self::NUMBERS];
+        all[1] = self.ratio;
+        let mut i = 0;
+        while i < TERMS {
+            all[i + 2] = self.terms[i];
+            i += 1;
+        }
+        all
+    }
+
+    /// What [`Transmittance::to_numbers`] gave.
+    pub(super) const fn baked(numbers: [f32; Self::NUMBERS]) -> Self {
+        let mut terms = [0.0; TERMS];
+        let mut i = 0;
+        while i < TERMS {
+            terms[i] = numbers[i + 2];
+            i += 1;
+        }
+        Self { terms, nearest: numbers[0], ratio: numbers[1] }
+    }
+
     /// * `eta` – index of refraction inside over that outside, at least 1
     pub(super) fn new(facets: &Ggx, eta: f32) -> Self {
         let nearest = facets.alpha()[0].min(NEAREST_MAX);

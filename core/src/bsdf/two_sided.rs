@@ -1,6 +1,6 @@
 //! A surface with a model on its front and perhaps another on its back.
 
-use super::{Bsdf, BsdfSample};
+use super::{Bsdf, BsdfError, BsdfSample};
 use crate::Rgb;
 use glam::Vec3;
 
@@ -72,5 +72,10 @@ impl<B: Bsdf> Bsdf for TwoSided<B> {
 
     fn is_black(&self) -> bool {
         self.front.is_black() && self.back.as_ref().is_none_or(Bsdf::is_black)
+    }
+
+    fn check(&self) -> Result<(), BsdfError> {
+        self.front.check()?;
+        self.back.as_ref().map_or(Ok(()), Bsdf::check)
     }
 }

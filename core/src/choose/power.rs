@@ -68,6 +68,12 @@ impl<'a> PowerTable<'a> {
         let start = if light == 0 { 0.0 } else { self.cumulative[light - 1] };
         end - start
     }
+
+    /// The cumulative shares.
+    #[must_use]
+    pub const fn as_slice(&self) -> &'a [f32] {
+        self.cumulative
+    }
 }
 
 #[cfg(test)]

@@ -34,6 +34,14 @@ impl Ray {
     }
 }
 
+/// One of the three axes: an index into three numbers that needs no check.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Axis {
+    X,
+    Y,
+    Z,
+}
+
 /// A ray with everything that a triangle test needs more than once: the axes and the shear of Woop,
 /// Benthin and Wald 2013, *Watertight Ray/Triangle Intersection*, JCGT 2(1), section 3.1, that turn
 /// the ray into the `+z` axis of unit length.
@@ -42,7 +50,7 @@ pub struct PreparedRay {
     /// The ray itself.
     pub ray: Ray,
     /// The axes that become x, y and z; z is the one along which the direction is largest.
-    pub(crate) axes: [usize; 3],
+    pub(crate) axes: [Axis; 3],
     /// The origin along those axes.
     pub(crate) origin: [f32; 3],
     /// What is taken from x and y, and the factor of z, per unit of z.
@@ -57,14 +65,15 @@ impl PreparedRay {
         let (o, d, a) = (ray.origin.to_array(), ray.direction.to_array(), ray.direction.abs());
         // The others follow in cyclic order, exchanged when z is negative so that winding is kept.
         let [x, y, z] = if a.z >= a.x && a.z >= a.y {
-            [0, 1, 2]
+            [Axis::X, Axis::Y, Axis::Z]
         } else if a.x >= a.y {
-            [1, 2, 0]
+            [Axis::Y, Axis::Z, Axis::X]
         } else {
-            [2, 0, 1]
+            [Axis::Z, Axis::X, Axis::Y]
         };
-        let (x, y) = if d[z] < 0.0 { (y, x) } else { (x, y) };
-        let scale = 1.0 / d[z];
-        Self { ray, axes: [x, y, z], origin: [o[x], o[y], o[z]], shear: [d[x] * scale, d[y] * scale, scale] }
+        let (o, d) = (|axis: Axis| o[axis as usize], |axis: Axis| d[axis as usize]);
+        let (x, y) = if d(z) < 0.0 { (y, x) } else { (x, y) };
+        let scale = 1.0 / d(z);
+        Self { ray, axes: [x, y, z], origin: [o(x), o(y), o(z)], shear: [d(x) * scale, d(y) * scale, scale] }
     }
 }

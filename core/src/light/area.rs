@@ -95,6 +95,16 @@ impl<S: SampledShape> AreaLight<S> {
     }
 }
 
+impl<S: Copy> AreaLight<S> {
+    /// A light that was checked before: for constants; see [`crate::Scene::baked`].
+    ///
+    /// * `radiance` (W m⁻² sr⁻¹)
+    #[must_use]
+    pub const fn baked(shape: S, radiance: Rgb, sides: Sides) -> Self {
+        Self { shape, radiance, sides }
+    }
+}
+
 impl<'a, S: SampledShape> AreaLight<S, Painted<'a>> {
     /// A light with a texture, emitting from the side that the shape's normal points to.
     #[must_use]
@@ -188,6 +198,12 @@ impl<S: SampledShape, R: SurfaceRadiance> Emitter for AreaLight<S, R> {
     fn power(&self, _scene_radius: f32) -> f32 {
         let sides = if self.sides == Sides::Both { 2.0 } else { 1.0 };
         sides * PI * self.shape.area() * self.radiance.mean().average()
+    }
+
+    fn check(&self) -> Result<(), LightError> {
+        self.shape.check().map_err(LightError::Shape)?;
+        // What is brighter in places was checked when it was painted.
+        check_emission("the radiance", self.radiance.mean()).map(drop)
     }
 }
 

@@ -22,6 +22,14 @@ impl Constant {
     pub fn new(radiance: Rgb) -> Result<Self, LightError> {
         Ok(Self { radiance: check_emission("the radiance", radiance)? })
     }
+
+    /// A light that was checked before: for constants; see [`crate::Scene::baked`].
+    ///
+    /// * `radiance` (W m⁻² sr⁻¹)
+    #[must_use]
+    pub const fn baked(radiance: Rgb) -> Self {
+        Self { radiance }
+    }
 }
 
 impl Emitter for Constant {
@@ -62,5 +70,9 @@ impl Emitter for Constant {
     /// `4π² R² L`: what enters the sphere around the scene.
     fn power(&self, scene_radius: f32) -> f32 {
         4.0 * PI * PI * scene_radius * scene_radius * self.radiance.average()
+    }
+
+    fn check(&self) -> Result<(), LightError> {
+        Self::new(self.radiance).map(drop)
     }
 }

@@ -1,6 +1,6 @@
 //! Parallel light.
 
-use super::error::check_emission;
+use super::error::{check_emission, check_unit};
 use super::{Density, Emitter, LightError, LightSample, Receiver, SurfaceDensity};
 use crate::Rgb;
 use crate::geom::unit;
@@ -35,6 +35,14 @@ impl Directional {
     pub const fn irradiance(&self) -> Rgb {
         self.irradiance
     }
+
+    /// A light that was checked before: for constants; see [`crate::Scene::baked`].
+    ///
+    /// * `direction` – unit vector, `irradiance` (W m⁻²)
+    #[must_use]
+    pub const fn baked(direction: Vec3, irradiance: Rgb) -> Self {
+        Self { direction, irradiance }
+    }
 }
 
 impl Emitter for Directional {
@@ -55,5 +63,10 @@ impl Emitter for Directional {
     /// `π R² E`: what enters the sphere around the scene.
     fn power(&self, scene_radius: f32) -> f32 {
         PI * scene_radius * scene_radius * self.irradiance.average()
+    }
+
+    fn check(&self) -> Result<(), LightError> {
+        check_unit(self.direction)?;
+        check_emission("the irradiance", self.irradiance).map(drop)
     }
 }

@@ -1,6 +1,6 @@
 //! A disk infinitely far away: the sun.
 
-use super::error::check_emission;
+use super::error::{check_emission, check_unit};
 use super::{Density, Emitter, LightError, LightSample, Receiver, SurfaceDensity};
 use crate::Rgb;
 use crate::geom::{Frame, unit};
@@ -43,6 +43,12 @@ impl DistantDisk {
         self.axis
     }
 
+    /// Squared sine of the angular radius.
+    #[must_use]
+    pub const fn sin2_radius(&self) -> f32 {
+        self.sin2_radius
+    }
+
     /// Irradiance on a surface that faces it (W m⁻²).
     #[must_use]
     pub fn irradiance(&self) -> Rgb {
@@ -60,6 +66,14 @@ impl DistantDisk {
     fn contains(&self, wi: Vec3) -> bool {
         // From the sine, since the cosine of a narrow cone is 1.
         wi.dot(self.axis) > 0.0 && wi.cross(self.axis).length_squared() <= self.sin2_radius
+    }
+
+    /// A light that was checked before: for constants; see [`crate::Scene::baked`].
+    ///
+    /// * `axis` – unit vector, `sin2_radius` – squared sine of the angular radius, `radiance` (W m⁻² sr⁻¹)
+    #[must_use]
+    pub const fn baked(axis: Vec3, sin2_radius: f32, radiance: Rgb) -> Self {
+        Self { axis, sin2_radius, radiance }
     }
 }
 
@@ -102,5 +116,14 @@ impl Emitter for DistantDisk {
     /// `π R²` times the irradiance on a surface that faces it.
     fn power(&self, scene_radius: f32) -> f32 {
         PI * scene_radius * scene_radius * self.irradiance().average()
+    }
+
+    fn check(&self) -> Result<(), LightError> {
+        check_unit(self.axis)?;
+        // A half is the squared sine of 45°, to rounding.
+        if !(self.sin2_radius > 0.0 && self.sin2_radius <= 0.500_001) {
+            return Err(LightError::AngularRadius { radius: num::acos(num::sqrt(1.0 - self.sin2_radius)) });
+        }
+        check_emission("the radiance", self.radiance).map(drop)
     }
 }

@@ -1,7 +1,9 @@
 //! Why a light was refused.
 
 use crate::Rgb;
+use crate::shape::ShapeError;
 use core::fmt;
+use glam::Vec3;
 
 /// Why a light was refused.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,8 +51,10 @@ pub enum LightError {
         /// The radius (rad).
         radius: f32,
     },
-    /// A direction has no length.
+    /// A direction has no length, or is not a unit vector where it must be.
     NoDirection,
+    /// The surface of a light would be refused.
+    Shape(ShapeError),
     /// The angles of a spot are not `0 ≤ beam ≤ cutoff ≤ π`, `cutoff > 0`.
     Angles {
         /// Half-angle of full intensity (rad).
@@ -86,6 +90,7 @@ impl fmt::Display for LightError {
                 radius.to_degrees()
             ),
             Self::NoDirection => write!(f, "the direction has no length"),
+            Self::Shape(source) => write!(f, "{source}"),
             Self::Angles { beam, cutoff } => write!(
                 f,
                 "the spot's angles must satisfy 0 ≤ beam ≤ cutoff ≤ 180°, cutoff > 0; they are {} and {}",
@@ -97,6 +102,12 @@ impl fmt::Display for LightError {
 }
 
 impl core::error::Error for LightError {}
+
+/// Checks that a direction has length 1, to rounding.
+pub(super) fn check_unit(direction: Vec3) -> Result<(), LightError> {
+    let off = (direction.length_squared() - 1.0).abs();
+    if off < 1e-5 { Ok(()) } else { Err(LightError::NoDirection) }
+}
 
 /// Checks what every light has: an emission.
 pub(super) fn check_emission(field: &'static str, emission: Rgb) -> Result<Rgb, LightError> {

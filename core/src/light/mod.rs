@@ -75,6 +75,18 @@ pub enum Density {
     Delta,
 }
 
+impl Density {
+    /// What an incident quantity is multiplied with: the reciprocal of a density over solid angle (sr), or 1.
+    #[inline]
+    #[must_use]
+    pub fn weight(self) -> f32 {
+        match self {
+            Self::SolidAngle(pdf) => 1.0 / pdf,
+            Self::Delta => 1.0,
+        }
+    }
+}
+
 /// A direction toward a light, and what arrives from there when nothing is in the way.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LightSample {
@@ -148,6 +160,14 @@ pub trait Emitter: Copy {
     /// lights does not hold and every receiver samples.
     fn bounds(&self) -> Option<LightBounds> {
         None
+    }
+
+    /// Checks a light that was made without checks, as those in a program's constants are.
+    ///
+    /// # Errors
+    /// What the checking constructor says. A light without another constructor has nothing to check.
+    fn check(&self) -> Result<(), LightError> {
+        Ok(())
     }
 
     /// Power into a scene that fits a sphere of `scene_radius` (m), as average over the channels (W).
@@ -294,6 +314,10 @@ impl Emitter for AnyLight<'_> {
 
     fn bounds(&self) -> Option<LightBounds> {
         each_light!(self, l => l.bounds())
+    }
+
+    fn check(&self) -> Result<(), LightError> {
+        each_light!(self, l => l.check())
     }
 
     fn power(&self, scene_radius: f32) -> f32 {

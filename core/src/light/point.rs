@@ -38,6 +38,14 @@ impl Point {
     pub const fn intensity(&self) -> Rgb {
         self.intensity
     }
+
+    /// A light that was checked before: for constants; see [`crate::Scene::baked`].
+    ///
+    /// * `position` (m), `intensity` (W sr⁻¹)
+    #[must_use]
+    pub const fn baked(position: Vec3, intensity: Rgb) -> Self {
+        Self { position, intensity }
+    }
 }
 
 /// Irradiance `I / d²` from a point; `None` where `f32` cannot hold it.
@@ -69,5 +77,9 @@ impl Emitter for Point {
     /// `4π I`.
     fn power(&self, _scene_radius: f32) -> f32 {
         4.0 * PI * self.intensity.average()
+    }
+
+    fn check(&self) -> Result<(), LightError> {
+        Self::new(self.position, self.intensity).map(drop)
     }
 }

@@ -1,7 +1,7 @@
 //! Spot lights.
 
 use super::bounds::{expected_cosine, positive};
-use super::error::check_emission;
+use super::error::{check_emission, check_unit};
 use super::point::from_point;
 use super::{Cone, Emitter, LightBounds, LightError, LightSample, Receiver, SurfaceDensity};
 use crate::Rgb;
@@ -85,6 +85,14 @@ impl Spot {
             (self.cutoff - angle) / (self.cutoff - self.beam)
         }
     }
+
+    /// A light that was checked before: for constants; see [`crate::Scene::baked`].
+    ///
+    /// * `position` (m), `axis` – unit vector, `intensity` (W sr⁻¹), `beam` and `cutoff` (rad)
+    #[must_use]
+    pub const fn baked(position: Vec3, axis: Vec3, intensity: Rgb, beam: f32, cutoff: f32) -> Self {
+        Self { position, axis, intensity, beam, cutoff }
+    }
 }
 
 impl Emitter for Spot {
@@ -116,5 +124,10 @@ impl Emitter for Spot {
             2.0 * sin * sin
         };
         TAU * 0.5 * (cap(self.beam) + cap(self.cutoff)) * self.intensity.average()
+    }
+
+    fn check(&self) -> Result<(), LightError> {
+        check_unit(self.axis)?;
+        Self::new(self.position, self.axis, self.intensity, self.beam, self.cutoff).map(drop)
     }
 }

@@ -10,7 +10,7 @@ mod textured;
 pub use parameters::{Parameters, Parametric};
 pub use textured::{ParameterTextures, Textured};
 
-use crate::bsdf::{AnyBsdf, Bsdf, TwoSided};
+use crate::bsdf::{AnyBsdf, Bsdf, BsdfError, TwoSided};
 use glam::Vec2;
 
 /// Gives each place of a surface its BSDF.
@@ -22,6 +22,12 @@ pub trait Material: Copy {
     ///
     /// * `uv` – computes the place's texture coordinates; called only where they matter
     fn at(&self, uv: impl FnOnce() -> Vec2) -> Self::Bsdf;
+
+    /// Checks the BSDFs that it gives, where textures do not change them.
+    ///
+    /// # Errors
+    /// As [`Bsdf::check`].
+    fn check_bsdfs(&self) -> Result<(), BsdfError>;
 }
 
 impl<B: Bsdf> Material for B {
@@ -30,6 +36,10 @@ impl<B: Bsdf> Material for B {
     #[inline]
     fn at(&self, _uv: impl FnOnce() -> Vec2) -> B {
         *self
+    }
+
+    fn check_bsdfs(&self) -> Result<(), BsdfError> {
+        self.check()
     }
 }
 
@@ -79,6 +89,10 @@ impl Material for AnyMaterial<'_> {
             Self::Plain(bsdf) => *bsdf,
             Self::Textured(faces) => faces.at(uv()),
         }
+    }
+
+    fn check_bsdfs(&self) -> Result<(), BsdfError> {
+        self.base().check()
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::{Material, Parameters, Parametric};
 use crate::Rgb;
+use crate::bsdf::BsdfError;
 use crate::texture::{Texture, TextureError};
 use glam::Vec2;
 
@@ -94,5 +95,9 @@ impl<B: Parametric> Material for Textured<'_, B> {
             specular: textures.specular.map(reflectance),
             roughness: textures.roughness.map(|t| t.at(uv).luminance()),
         })
+    }
+
+    fn check_bsdfs(&self) -> Result<(), BsdfError> {
+        self.base.check()
     }
 }

@@ -3,8 +3,10 @@
 //! Generic over what it holds, so that a program whose scene has one kind of shape, light and BSDF
 //! links no other. [`AnyScene`] is the instance that holds everything.
 
+mod baked;
 mod tables;
 
+pub use baked::BakedError;
 pub use tables::{CornerNormals, CornerUvs, NONE, SceneError, Surface, Tables};
 
 use crate::Rgb;
@@ -96,6 +98,12 @@ impl<'a, S: Shape, L: Emitter, M: Material> Scene<'a, S, L, M> {
         &self.bvh
     }
 
+    /// The tables.
+    #[must_use]
+    pub fn tables(&self) -> &Tables<'a, S, L, M> {
+        &self.tables
+    }
+
     /// The surfaces.
     #[must_use]
     pub fn surfaces(&self) -> &'a [Surface<S>] {
@@ -132,7 +140,13 @@ impl<'a, S: Shape, L: Emitter, M: Material> Scene<'a, S, L, M> {
     #[inline]
     pub fn environments(&self) -> impl Iterator<Item = (usize, &'a L)> + use<'a, S, L, M> {
         let first = self.first_environment;
-        self.tables.lights[first..].iter().enumerate().map(move |(i, light)| (first + i, light))
+        self.tables
+            .lights
+            .get(first..)
+            .unwrap_or_default()
+            .iter()
+            .enumerate()
+            .map(move |(i, light)| (first + i, light))
     }
 
     /// Radiance that arrives along `wi` from beyond all surfaces (W m⁻² sr⁻¹).

@@ -144,7 +144,7 @@ impl<S, L: Emitter, M> Tables<'_, S, L, M> {
     pub(super) fn first_environment(&self) -> Result<usize, SceneError> {
         let around = self.lights.iter().rev().take_while(|l| l.is_environment()).count();
         let first = self.lights.len() - around;
-        match self.lights[..first].iter().position(L::is_environment) {
+        match self.lights.iter().take(first).position(L::is_environment) {
             Some(light) => Err(SceneError::EnvironmentNotLast { light }),
             None => Ok(first),
         }

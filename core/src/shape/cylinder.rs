@@ -40,6 +40,12 @@ impl Cylinder {
         Ok(Self { base, axis, radius, inward: false })
     }
 
+    /// A cylinder that was checked before: for constants; see [`crate::Scene::baked`].
+    #[must_use]
+    pub const fn baked(base: Vec3, axis: Vec3, radius: f32) -> Self {
+        Self { base, axis, radius, inward: false }
+    }
+
     /// Centre of the lower end (m).
     #[must_use]
     pub const fn base(&self) -> Vec3 {
@@ -157,6 +163,10 @@ impl Shape for Cylinder {
     /// Around the axis, and along it.
     fn tangents(&self, point: Vec3) -> [Vec3; 2] {
         [self.axis.cross(self.coordinates(point).1), self.axis]
+    }
+
+    fn check(&self) -> Result<(), ShapeError> {
+        Self::new(self.base, self.axis, self.radius).map(drop)
     }
 }
 

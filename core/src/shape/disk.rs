@@ -20,6 +20,12 @@ impl Disk {
         Planar::new(centre, axis_u, axis_v).map(Self)
     }
 
+    /// A disk that was checked before: for constants; see [`crate::Scene::baked`].
+    #[must_use]
+    pub const fn baked(centre: Vec3, axis_u: Vec3, axis_v: Vec3) -> Self {
+        Self(Planar { centre, axis_u: axis_u, axis_v: axis_v })
+    }
+
     /// Centre (m).
     #[must_use]
     pub fn centre(&self) -> Vec3 {
@@ -113,5 +119,9 @@ impl Shape for Disk {
     fn tangents(&self, point: Vec3) -> [Vec3; 2] {
         let outward = point - self.centre();
         [outward, self.normal().cross(outward)]
+    }
+
+    fn check(&self) -> Result<(), ShapeError> {
+        Planar::new(self.0.centre, self.0.axis_u, self.0.axis_v).map(drop)
     }
 }

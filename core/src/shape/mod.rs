@@ -89,6 +89,14 @@ pub trait Shape: Copy {
     /// 3; of any length and either sign, but for a triangle, which gives its edges. Zero where there are
     /// none.
     fn tangents(&self, point: Vec3) -> [Vec3; 2];
+
+    /// Checks a shape that was made without checks, as those in a program's constants are.
+    ///
+    /// # Errors
+    /// What the checking constructor says. A shape without another constructor has nothing to check.
+    fn check(&self) -> Result<(), ShapeError> {
+        Ok(())
+    }
 }
 
 /// Angle of a point about the third axis, in turns from the first, in `[0, 1]`.
@@ -177,5 +185,9 @@ impl Shape for AnyShape {
 
     fn tangents(&self, point: Vec3) -> [Vec3; 2] {
         each_shape!(self, s => s.tangents(point))
+    }
+
+    fn check(&self) -> Result<(), ShapeError> {
+        each_shape!(self, s => s.check())
     }
 }

@@ -23,6 +23,12 @@ impl Rectangle {
         Planar::new(centre, half_u, half_v).map(Self)
     }
 
+    /// A rectangle that was checked before: for constants; see [`crate::Scene::baked`].
+    #[must_use]
+    pub const fn baked(centre: Vec3, half_u: Vec3, half_v: Vec3) -> Self {
+        Self(Planar { centre, axis_u: half_u, axis_v: half_v })
+    }
+
     /// Centre (m).
     #[must_use]
     pub fn centre(&self) -> Vec3 {
@@ -109,5 +115,9 @@ impl Shape for Rectangle {
     /// Along the edges.
     fn tangents(&self, _: Vec3) -> [Vec3; 2] {
         [self.half_u(), self.half_v()]
+    }
+
+    fn check(&self) -> Result<(), ShapeError> {
+        Planar::new(self.0.centre, self.0.axis_u, self.0.axis_v).map(drop)
     }
 }

@@ -31,6 +31,12 @@ impl Sphere {
         Ok(Self { centre, radius, inward: false })
     }
 
+    /// A sphere that was checked before: for constants; see [`crate::Scene::baked`].
+    #[must_use]
+    pub const fn baked(centre: Vec3, radius: f32) -> Self {
+        Self { centre, radius, inward: false }
+    }
+
     /// Centre (m).
     #[must_use]
     pub const fn centre(&self) -> Vec3 {
@@ -132,6 +138,10 @@ impl Shape for Sphere {
         let outward = point - self.centre;
         let around = Vec3::Z.cross(outward);
         [around, around.cross(outward)]
+    }
+
+    fn check(&self) -> Result<(), ShapeError> {
+        Self::new(self.centre, self.radius).map(drop)
     }
 }
 

@@ -29,6 +29,13 @@ impl Triangle {
         Ok(triangle)
     }
 
+    /// A triangle that was checked before, from its corners (m): for constants; see
+    /// [`crate::Scene::baked`].
+    #[must_use]
+    pub const fn baked(corners: [Vec3; 3]) -> Self {
+        Self::from_corners(corners)
+    }
+
     /// The corners (m).
     #[must_use]
     pub const fn corners(&self) -> [Vec3; 3] {
@@ -117,9 +124,9 @@ impl Shape for Triangle {
     #[inline(always)]
     fn intersect(&self, ray: &PreparedRay, t_max: f32) -> Option<ShapeHit> {
         // The corners relative to the origin, axis by axis, in the sheared space of the ray.
-        let along = self.axes[ray.axes[2]] - ray.origin[2];
-        let x = self.axes[ray.axes[0]] - ray.origin[0] - along * ray.shear[0];
-        let y = self.axes[ray.axes[1]] - ray.origin[1] - along * ray.shear[1];
+        let along = self.axes[ray.axes[2] as usize] - ray.origin[2];
+        let x = self.axes[ray.axes[0] as usize] - ray.origin[0] - along * ray.shear[0];
+        let y = self.axes[ray.axes[1] as usize] - ray.origin[1] - along * ray.shear[1];
         let mut e = y.cross(x);
         if e.x == 0.0 || e.y == 0.0 || e.z == 0.0 {
             e = edges_in_double(x, y);
@@ -165,6 +172,11 @@ impl Shape for Triangle {
     fn tangents(&self, _: Vec3) -> [Vec3; 2] {
         let [a, b, c] = self.corners();
         [b - a, c - a]
+    }
+
+    fn check(&self) -> Result<(), ShapeError> {
+        let [a, b, c] = self.corners();
+        Self::new(a, b, c).map(drop)
     }
 }
 
