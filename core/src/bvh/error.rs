@@ -76,10 +76,10 @@ pub(super) fn check(nodes: &[Node], primitives: usize) -> Result<usize, BvhError
     // One more than a query: the child that is walked next waits here too.
     let mut stack = [(0_u32, 0_u32); STACK + 1];
     let (mut height, mut visits, mut needed) = (1, 0, 0);
-    while height > 0 {
+    while let Some(&(index, waiting)) = stack.get(usize::wrapping_sub(height, 1)) {
         height -= 1;
-        let (index, waiting) = stack[height];
-        let (index, node) = (index as usize, &nodes[index as usize]);
+        let index = index as usize;
+        let Some(node) = nodes.get(index) else { return Err(BvhError::NodeOutOfRange { node: index }) };
         visits += 1;
         if visits > nodes.len() {
             return Err(BvhError::Shared { node: index });
@@ -94,7 +94,10 @@ pub(super) fn check(nodes: &[Node], primitives: usize) -> Result<usize, BvhError
             check_slot(node, slot, index, nodes.len(), primitives)?;
             if let Child::Node(child) = node.child(slot) {
                 // In range: what waits here is among the `below` of the worst ray, plus one.
-                stack[height] = (child, below as u32);
+                let Some(place) = stack.get_mut(height) else {
+                    return Err(BvhError::TooDeep { needed: below });
+                };
+                *place = (child, below as u32);
                 height += 1;
             }
         }

@@ -1,4 +1,7 @@
 //! Finding what a ray meets.
+//!
+//! [`Bvh::new`] has checked what indices and the stack are asked for here; `get` instead of an index costs
+//! the same comparison, and a program without panics can be linked.
 
 use super::node::{Child, WIDTH, decode};
 use super::slabs::{Entered, Slabs};
@@ -35,7 +38,7 @@ impl Bvh<'_> {
         loop {
             match decode(current) {
                 Child::Node(index) => {
-                    let node = &self.nodes[index as usize];
+                    let Some(node) = self.nodes.get(index as usize) else { return found };
                     let entered = slabs.enter(node, t_max);
                     if let Some(nearest) = nearest_first(&node.slots, &entered, &mut stack, &mut height) {
                         current = nearest;
@@ -54,12 +57,12 @@ impl Bvh<'_> {
             }
             // The next child that the ray still reaches.
             current = loop {
-                if height == 0 {
-                    return found;
-                }
-                height -= 1;
-                if stack[height].near < t_max {
-                    break stack[height].slot;
+                // 0 − 1 is beyond the stack, too.
+                height = height.wrapping_sub(1);
+                match stack.get(height) {
+                    None => return found,
+                    Some(waiting) if waiting.near < t_max => break waiting.slot,
+                    Some(_) => {}
                 }
             };
         }
@@ -77,7 +80,7 @@ impl Bvh<'_> {
         let mut height = 0;
         let mut current = 0_u32;
         loop {
-            let node = &self.nodes[current as usize];
+            let Some(node) = self.nodes.get(current as usize) else { return false };
             let mut mask = slabs.enter(node, t_max).mask;
             // One child is walked next and does not wait: the others are what `Bvh::new` has counted.
             let mut next = None;
@@ -86,8 +89,10 @@ impl Bvh<'_> {
                 mask &= mask - 1;
                 match decode(node.slots[lane]) {
                     Child::Node(index) => {
-                        if let Some(waiting) = next.replace(index) {
-                            stack[height] = waiting;
+                        if let Some(waiting) = next.replace(index)
+                            && let Some(place) = stack.get_mut(height)
+                        {
+                            *place = waiting;
                             height += 1;
                         }
                     }
@@ -101,10 +106,10 @@ impl Bvh<'_> {
             }
             current = match next {
                 Some(index) => index,
-                None if height == 0 => return false,
                 None => {
-                    height -= 1;
-                    stack[height]
+                    height = height.wrapping_sub(1);
+                    let Some(&waiting) = stack.get(height) else { return false };
+                    waiting
                 }
             };
         }
@@ -138,11 +143,16 @@ fn nearest_first(
         }
         // Insertion into the at most three that wait, by descending distance.
         let mut at = *height;
-        while at > bottom && stack[at - 1].near < child.near {
-            stack[at] = stack[at - 1];
+        while at > bottom
+            && let Some([below, above]) = stack.get_mut(at - 1..at + 1)
+            && below.near < child.near
+        {
+            *above = *below;
             at -= 1;
         }
-        stack[at] = child;
+        if let Some(place) = stack.get_mut(at) {
+            *place = child;
+        }
         *height += 1;
     }
     Some(nearest.slot)

@@ -2,6 +2,7 @@
 
 mod adaptive;
 mod arrival;
+mod by_light;
 mod convergence;
 mod direct;
 mod gather;
@@ -10,11 +11,13 @@ mod job;
 mod layers;
 mod observer;
 mod occlusion;
+mod probe;
 mod shading;
 mod stats;
 
 pub use adaptive::{AdaptiveTile, TILE, Target};
 pub use arrival::{Arrival, LightRay};
+pub use by_light::{ByArea, ByLight, ByProjected, BySolidAngle, StaticDensity};
 pub use convergence::{Convergence, DifferenceSums, ErrorEstimate};
 pub use direct::{Direct, Technique};
 pub use heuristic::Heuristic;
@@ -22,6 +25,7 @@ pub use job::{Job, passes};
 pub use layers::LayeredPixel;
 pub use observer::Observer;
 pub use occlusion::Occlusion;
+pub use probe::{Irradiance, Probe};
 pub use stats::{Pixel, PixelStats};
 
 use crate::Rgb;
