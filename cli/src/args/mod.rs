@@ -12,7 +12,7 @@ pub(crate) use tradeoff::TradeoffArgs;
 use clap::builder::Styles;
 use clap::builder::styling::{AnsiColor, Style};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 use halflight::build::Sky;
 use halflight::load::builtin::BUILTIN;
 use std::net::{IpAddr, Ipv4Addr};
@@ -36,7 +36,7 @@ pub(crate) enum Command {
     Render(Box<RenderArgs>),
     /// List the built-in scenes
     Scenes(ScenesArgs),
-    /// Write a scene as Mitsuba 3 XML, with its meshes beside it
+    /// Write a scene as Mitsuba 3 XML with its meshes beside it, or as Rust source for firmware
     Export(ExportArgs),
     /// Show what a scene holds, needs and costs
     Inspect(InspectArgs),
@@ -80,12 +80,35 @@ pub(crate) struct ExportArgs {
     #[arg(value_name = "SCENE")]
     pub(crate) scene: PathBuf,
 
-    /// Where to write it [default: the scene's name with .xml, in this folder]
-    #[arg(short, long, value_name = "FILE.xml")]
+    /// Where to write it [default: the scene's name with .xml or .rs, in this folder]
+    #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
+
+    /// How to write it [default: by the ending of FILE, else xml]
+    #[arg(long = "as", value_name = "FORMAT", value_enum)]
+    pub(crate) format: Option<SceneFormat>,
 
     #[command(flatten)]
     pub(crate) reading: SceneArgs,
+}
+
+/// How a scene is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum SceneFormat {
+    /// Mitsuba 3 XML, meshes and pictures beside it
+    Xml,
+    /// Rust source: constants for a program without files or heap
+    Rust,
+}
+
+impl SceneFormat {
+    /// How the names of such files end.
+    pub(crate) const fn extension(self) -> &'static str {
+        match self {
+            Self::Xml => "xml",
+            Self::Rust => "rs",
+        }
+    }
 }
 
 /// `halflight inspect`

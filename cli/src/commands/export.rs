@@ -1,21 +1,17 @@
-//! `halflight export`: a scene as Mitsuba 3 XML.
+//! `halflight export`: a scene as Mitsuba 3 XML, or as Rust source.
 
-use crate::args::ExportArgs;
+use crate::args::{ExportArgs, SceneFormat};
 use crate::failure::{Exit, Failure, without_numbers};
 use crate::output::Output;
 use crate::progress::Step;
 use crate::{scene, terminal};
-use halflight::load::export_mitsuba;
+use halflight::load::{export_mitsuba, export_rust};
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
-/// Reads a scene and writes it as XML, its meshes beside it.
+/// Reads a scene and writes it: as XML with its meshes beside it, or as one Rust file.
 pub(crate) fn run(args: &ExportArgs) -> Result<Exit, Failure> {
-    let path = target(args);
-    if path.extension().and_then(OsStr::to_str) != Some("xml") {
-        return Err(Failure::new(format!("cannot write {}: scenes are written as .xml", path.display()))
-            .tip("end the name in .xml"));
-    }
+    let (path, format) = target(args)?;
     let output = Output::check(&path)?;
     if same_file(&path, &args.scene) {
         return Err(Failure::new(format!("{} is the scene itself", path.display()))
@@ -28,7 +24,11 @@ pub(crate) fn run(args: &ExportArgs) -> Result<Exit, Failure> {
     found.print_warnings();
     {
         let _step = Step::begin(format!("writing {}", path.display()), false);
-        export_mitsuba(&found.description, output.path())
+        let export = match format {
+            SceneFormat::Xml => export_mitsuba,
+            SceneFormat::Rust => export_rust,
+        };
+        export(&found.description, output.path())
             .map_err(|e| Failure::new(format!("cannot write {}", without_numbers(&e.to_string()))))?;
     }
     terminal::result(&path.display().to_string())?;
@@ -40,10 +40,20 @@ fn same_file(a: &Path, b: &Path) -> bool {
     matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
 }
 
-/// Where the scene is written.
-fn target(args: &ExportArgs) -> PathBuf {
-    args.output.clone().unwrap_or_else(|| {
+/// Where the scene is written, and how: as is asked for, as the file's name says, or as XML.
+fn target(args: &ExportArgs) -> Result<(PathBuf, SceneFormat), Failure> {
+    let named = args.output.as_deref().and_then(Path::extension);
+    let by_name =
+        [SceneFormat::Xml, SceneFormat::Rust].into_iter().find(|f| named == Some(f.extension().as_ref()));
+    let format = args.format.or(by_name);
+    let Some(path) = &args.output else {
+        let format = format.unwrap_or(SceneFormat::Xml);
         let stem = args.scene.file_stem().unwrap_or(OsStr::new("scene"));
-        Path::new(stem).with_extension("xml")
-    })
+        return Ok((Path::new(stem).with_extension(format.extension()), format));
+    };
+    match (format, by_name) {
+        (Some(format), Some(ending)) if format == ending => Ok((path.clone(), format)),
+        _ => Err(Failure::new(format!("cannot write {}: scenes are written as .xml or .rs", path.display()))
+            .tip(format!("end the name in .{}", format.unwrap_or(SceneFormat::Xml).extension()))),
+    }
 }

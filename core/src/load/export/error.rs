@@ -3,6 +3,7 @@
 use core::fmt;
 use std::io;
 use std::path::PathBuf;
+use std::string::String;
 
 /// Why a scene was not written.
 #[derive(Debug)]
@@ -25,6 +26,18 @@ pub enum ExportError {
         /// Index of the object.
         object: usize,
     },
+    /// The scene is none that can be rendered.
+    Scene {
+        /// What is wrong with it.
+        message: String,
+    },
+    /// Something that is not written as Rust source.
+    NotBaked {
+        /// What it is.
+        what: &'static str,
+        /// What to do instead.
+        instead: &'static str,
+    },
     /// A light in the list of lights has a surface; only objects may.
     SurfaceLight {
         /// Its kind.
@@ -40,6 +53,8 @@ impl fmt::Display for ExportError {
             Self::Material { object } => {
                 write!(f, "object {object} refers to a material that does not exist")
             }
+            Self::Scene { message } => write!(f, "{message}"),
+            Self::NotBaked { what, instead } => write!(f, "{what} is not written as Rust; {instead}"),
             Self::SurfaceLight { kind } => {
                 write!(f, "a {kind} is among the lights without a surface; make it an object that emits")
             }

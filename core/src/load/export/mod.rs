@@ -1,6 +1,7 @@
-//! Writes a scene as Mitsuba 3 XML with binary PLY meshes, and pictures as PNG or OpenEXR.
+//! Writes a scene as Mitsuba 3 XML with binary PLY meshes, and pictures as PNG or OpenEXR; or as Rust
+//! source, for programs without files.
 //!
-//! What is written loads in Mitsuba, and loads here to the same scene, except for what Mitsuba does
+//! The XML that is written loads in Mitsuba, and loads here to the same scene, except for what Mitsuba does
 //! not have: surfaces that emit from both sides, and the Phong model. Those are written in the
 //! spelling that this crate reads, with a remark.
 
@@ -9,10 +10,12 @@ mod file;
 mod names;
 mod parts;
 mod ply;
+mod rust;
 mod textures;
 mod xml;
 
 pub use error::ExportError;
+pub use rust::{export_rust, rust_source};
 
 use crate::build::{Description, Geometry, Mesh, Object};
 use crate::load::write_exr;
