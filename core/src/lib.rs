@@ -86,7 +86,8 @@
 //! # Features
 //!
 //! None is on by default. `build` makes trees and tables from owned scenes (std), `load` reads scene
-//! files and meshes and has the built-in scenes (std, implies `build`).
+//! files and meshes and has the built-in scenes (std, implies `build`). `small` makes less code, which takes
+//! longer, for firmware; the bits of a picture are the same.
 #![no_std]
 #![forbid(unsafe_code)]
 
@@ -124,3 +125,8 @@ pub use film::Film;
 pub use glam;
 pub use rgb::Rgb;
 pub use scene::Scene;
+
+/// The code in the README.
+#[cfg(all(doctest, feature = "load"))]
+#[doc = include_str!("../../README.md")]
+struct Readme;

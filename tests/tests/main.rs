@@ -12,6 +12,7 @@ mod estimators;
 mod extremes;
 mod invariance;
 mod lights;
+mod outsider;
 mod pictures;
 mod portals;
 mod properties;

@@ -19,11 +19,26 @@ const STEEP: f32 = 1e38;
 /// How far a slab is widened for a ray along it (m): nothing beside any coordinate but 0.
 const WIDENED: f32 = 1e-20;
 
+/// A row of a node's planes: an index that needs no check.
+#[derive(Clone, Copy)]
+enum Plane {
+    LowerX,
+    LowerY,
+    LowerZ,
+    UpperX,
+    UpperY,
+    UpperZ,
+}
+
+/// The two planes of each axis.
+const AXES: [[Plane; 2]; 3] =
+    [[Plane::LowerX, Plane::UpperX], [Plane::LowerY, Plane::UpperY], [Plane::LowerZ, Plane::UpperZ]];
+
 /// A ray as the slab test wants it.
 pub(super) struct Slabs {
     /// Which plane of each axis is met first, and which last, as rows of the node.
-    near: [usize; 3],
-    far: [usize; 3],
+    near: [Plane; 3],
+    far: [Plane; 3],
     near_origin: [Vec4; 3],
     far_origin: [Vec4; 3],
     near_inverse: [Vec4; 3],
@@ -40,8 +55,8 @@ impl Slabs {
     #[inline]
     pub(super) fn new(ray: &Ray) -> Self {
         let mut slabs = Self {
-            near: [0; 3],
-            far: [0; 3],
+            near: AXES.map(|[lower, _]| lower),
+            far: AXES.map(|[_, upper]| upper),
             near_origin: [Vec4::ZERO; 3],
             far_origin: [Vec4::ZERO; 3],
             near_inverse: [Vec4::ZERO; 3],
@@ -54,9 +69,9 @@ impl Slabs {
             let along = d.abs() < PARALLEL;
             let inverse = if along { STEEP } else { 1.0 / d };
             let pad = if along { o.abs() * f32::EPSILON + WIDENED } else { 0.0 };
-            let backward = inverse < 0.0;
-            slabs.near[axis] = if backward { axis + 3 } else { axis };
-            slabs.far[axis] = if backward { axis } else { axis + 3 };
+            if inverse < 0.0 {
+                [slabs.far[axis], slabs.near[axis]] = AXES[axis];
+            }
             slabs.near_origin[axis] = Vec4::splat(o + pad);
             slabs.far_origin[axis] = Vec4::splat(o - pad);
             slabs.near_inverse[axis] = Vec4::splat(inverse);
@@ -71,8 +86,8 @@ impl Slabs {
     pub(super) fn enter(&self, node: &Node, t_max: f32) -> Entered {
         let (mut enter, mut leave) = (Vec4::ZERO, Vec4::splat(t_max));
         for axis in 0..3 {
-            let near = Vec4::from_array(node.planes[self.near[axis]]);
-            let far = Vec4::from_array(node.planes[self.far[axis]]);
+            let near = Vec4::from_array(node.planes[self.near[axis] as usize]);
+            let far = Vec4::from_array(node.planes[self.far[axis] as usize]);
             enter = enter.max((near - self.near_origin[axis]) * self.near_inverse[axis]);
             leave = leave.min((far - self.far_origin[axis]) * self.far_inverse[axis]);
         }

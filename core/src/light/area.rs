@@ -151,6 +151,40 @@ impl<S: SampledShape, R: SurfaceRadiance> AreaLight<S, R> {
         self.shape.view(from, method, self.sides)
     }
 
+    /// Hands what `from` sees of the light to `then`: in line, where the code for each density is made for
+    /// its use.
+    #[cfg(not(feature = "small"))]
+    #[inline]
+    fn seen<U: UseView<S::View>>(
+        &self,
+        from: &Receiver,
+        method: SurfaceDensity,
+        then: U,
+    ) -> Option<U::Output> {
+        self.shape.with_view(from, method, self.sides, then)
+    }
+
+    /// Hands what `from` sees of the light to `then`: out of line, where a shape has the code for each
+    /// density once.
+    #[cfg(feature = "small")]
+    fn seen<U: UseView<S::View>>(
+        &self,
+        from: &Receiver,
+        method: SurfaceDensity,
+        then: U,
+    ) -> Option<U::Output> {
+        #[inline(never)]
+        fn view<S: SampledShape>(
+            shape: &S,
+            from: &Receiver,
+            method: SurfaceDensity,
+            sides: Sides,
+        ) -> Option<S::View> {
+            shape.with_view(from, method, sides, Keep)
+        }
+        then.with(view(&self.shape, from, method, self.sides)?, |view| view)
+    }
+
     /// Cosine on the emitting side; 0 or less where nothing is emitted.
     #[inline]
     pub(super) fn cos_light(&self, normal: Vec3, wi: Vec3) -> f32 {
@@ -162,7 +196,7 @@ impl<S: SampledShape, R: SurfaceRadiance> AreaLight<S, R> {
 impl<S: SampledShape, R: SurfaceRadiance> Emitter for AreaLight<S, R> {
     #[inline]
     fn sample(&self, from: &Receiver, method: SurfaceDensity, u: [f32; 2]) -> Option<LightSample> {
-        self.shape.with_view(from, method, self.sides, Draw { light: self, from, u })
+        self.seen(from, method, Draw { light: self, from, u })
     }
 
     #[inline]
@@ -171,7 +205,7 @@ impl<S: SampledShape, R: SurfaceRadiance> Emitter for AreaLight<S, R> {
         if !(cos_light > 0.0) {
             return 0.0;
         }
-        self.shape.with_view(from, method, self.sides, Query { at, wi, cos_light }).unwrap_or(0.0)
+        self.seen(from, method, Query { at, wi, cos_light }).unwrap_or(0.0)
     }
 
     #[inline]
@@ -217,7 +251,7 @@ struct Draw<'a, S, R> {
 impl<S: SampledShape, R: SurfaceRadiance> UseView<S::View> for Draw<'_, S, R> {
     type Output = LightSample;
 
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn with<V: SurfaceView>(self, view: V, _: impl FnOnce(V) -> S::View) -> Option<LightSample> {
         let Self { light, from, u } = self;
         let sample = view.sample(u)?;
@@ -245,7 +279,7 @@ struct Query<'a> {
 impl<A> UseView<A> for Query<'_> {
     type Output = f32;
 
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn with<V: SurfaceView>(self, view: V, _: impl FnOnce(V) -> A) -> Option<f32> {
         view.pdf_solid_angle(self.at, self.wi, self.cos_light)
     }

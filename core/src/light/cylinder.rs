@@ -198,7 +198,7 @@ impl Lines {
 }
 
 impl SurfaceView for CylinderSlab {
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn sample(&self, u: [f32; 2]) -> Option<SurfaceSample> {
         let Lines { tube, axis, toward, across, .. } = &self.lines;
         let turn = self.sweep.sample(u[0]);
@@ -216,7 +216,7 @@ impl SurfaceView for CylinderSlab {
         Some(SurfaceSample { at: tube.point(fraction, n), wi, distance })
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn pdf_solid_angle(&self, at: &SurfacePoint, _: Vec3, _: f32) -> Option<f32> {
         let (span, turn, rate) = self.lines.line_through(at, self.sweep.half());
         let pdf = self.sweep.pdf(turn) / (span.extent() * rate);
@@ -251,7 +251,7 @@ impl SampledShape for Cylinder {
     }
 
     /// By area where the inner wall is seen through an open end, and where both sides emit.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn with_view<U: UseView<Self::View>>(
         &self,
         from: &Receiver,

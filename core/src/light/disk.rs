@@ -108,7 +108,7 @@ impl DiskSlab {
     /// `None` from within the disk's plane, and where rounding leaves no solid angle.
     ///
     /// * `rise` – as [`rise`]
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn new(disk: &Disk, from: &Receiver, normal: Vec3, rise: f32) -> Option<Self> {
         let lines = Lines::new(disk, from, normal, rise)?;
         let half = 0.5 * (lines.to_centre[0] + lines.to_centre[1]);
@@ -117,7 +117,7 @@ impl DiskSlab {
 }
 
 impl Lines {
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn new(disk: &Disk, from: &Receiver, normal: Vec3, rise: f32) -> Option<Self> {
         let centre = disk.centre() - from.point;
         let (a, b) = (disk.axis_u().length(), disk.axis_v().length());
@@ -235,7 +235,7 @@ impl Lines {
 }
 
 impl SurfaceView for DiskSlab {
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn sample(&self, u: [f32; 2]) -> Option<SurfaceSample> {
         let Lines { disk, axes, normal, height, along: e, .. } = &self.lines;
         let line = self.lines.line_at(self.sweep.sample(u[0]));
@@ -249,7 +249,7 @@ impl SurfaceView for DiskSlab {
         (distance > 0.0 && distance.is_finite()).then_some(SurfaceSample { at, wi: unit(way)?, distance })
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn pdf_solid_angle(&self, at: &SurfacePoint, _: Vec3, _: f32) -> Option<f32> {
         let (line, turn) = self.lines.line_through(self.lines.place(at).0);
         let pdf = self.sweep.pdf(turn) * (0.5 * (1.0 + line.turn2)) / line.span.extent();
@@ -267,7 +267,7 @@ impl SurfaceView for DiskSlab {
 /// How far the disk's plane is from the receiver along the normal (m).
 ///
 /// In double precision: at 1 mrad over the plane, single has four digits of it.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn rise(disk: &Disk, normal: Vec3, from: &Receiver) -> f32 {
     normal.as_dvec3().dot(disk.centre().as_dvec3() - from.point.as_dvec3()) as f32
 }
@@ -299,7 +299,7 @@ impl SampledShape for Disk {
         u.map(num::clamp_unit)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn with_view<U: UseView<Self::View>>(
         &self,
         from: &Receiver,

@@ -106,7 +106,7 @@ impl SampledShape for Polygon {
         [Shares::of_area(self).join(i, first), second]
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn with_view<U: UseView<Self::View>>(
         &self,
         from: &Receiver,
@@ -126,7 +126,7 @@ impl SampledShape for Polygon {
 impl FlatShape for Polygon {
     type SolidAngle = PolygonSolidAngle;
 
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn solid_angle_view(&self, from: Vec3, _: &Chart) -> Option<PolygonSolidAngle> {
         PolygonSolidAngle::new(*self, from)
     }
@@ -187,7 +187,7 @@ pub struct PolygonSolidAngle {
 }
 
 impl PolygonSolidAngle {
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn new(shape: Polygon, from: Vec3) -> Option<Self> {
         let shares = Shares::of_solid_angle(&shape, from);
         (shares.total >= f32::MIN_POSITIVE && shares.total.is_finite()).then_some(Self {
@@ -197,7 +197,7 @@ impl PolygonSolidAngle {
         })
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn part(&self, index: usize) -> Option<SphericalTriangle> {
         let [shared, first, second] = self.shape.fan(index).corners();
         let apex = Apex::new(self.from, first);
@@ -207,7 +207,7 @@ impl PolygonSolidAngle {
 }
 
 impl SurfaceView for PolygonSolidAngle {
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn sample(&self, u: [f32; 2]) -> Option<SurfaceSample> {
         let (i, first) = self.shares.choose(u[0]);
         let TrianglePlace { barycentric: [shared, second], direction: wi, distance } =
@@ -216,7 +216,7 @@ impl SurfaceView for PolygonSolidAngle {
         Some(SurfaceSample { at, wi, distance })
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn pdf_solid_angle(&self, _: &SurfacePoint, _: Vec3, _: f32) -> Option<f32> {
         Some(1.0 / self.shares.total)
     }

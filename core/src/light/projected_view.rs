@@ -40,7 +40,7 @@ pub trait FlatShape: SampledShape {
     /// [`SampledShape::with_view`] of every flat shape.
     ///
     /// * `N` – as in [`ProjectedPolygon`]
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn with_flat_view<const N: usize, U>(
         &self,
         from: &Receiver,
@@ -89,7 +89,7 @@ impl<S: FlatShape, const N: usize> ProjectedView<S, N> {
     /// It is made where it stays: moving it out of an `Option` costs as much as a sector.
     ///
     /// * `chart` – the shape's, from the receiver
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub fn with<R>(
         shape: &S,
         from: &Receiver,

@@ -21,7 +21,7 @@ pub trait SurfaceRadiance: Copy {
 }
 
 impl SurfaceRadiance for Rgb {
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn at(&self, _: &impl Shape, _: Vec3) -> Rgb {
         *self
     }

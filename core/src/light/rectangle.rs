@@ -28,7 +28,7 @@ impl SampledShape for Rectangle {
         [a, b].map(|x| (0.5 * x + 0.5).clamp(0.0, ONE_MINUS_EPSILON))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn with_view<U: UseView<Self::View>>(
         &self,
         from: &Receiver,
@@ -52,7 +52,7 @@ impl FlatShape for Rectangle {
         (self.centre(), (self.half_u() + self.half_v()).length())
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn solid_angle_view(&self, _: Vec3, chart: &Chart) -> Option<RectangleSolidAngle> {
         RectangleSolidAngle::new(*self, Local::new(self, chart))
     }
@@ -91,7 +91,7 @@ struct Local {
 impl Local {
     /// In double precision: 1 mrad above the plane, or at 1e-6 sizes from it, single has two or
     /// three digits of the height, and of a corner near the foot none.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn new(shape: &Rectangle, chart: &Chart) -> Self {
         let Chart { origin, u, v, .. } = *chart;
         let (uu, vv) = (u.length_squared(), v.length_squared());
@@ -120,7 +120,7 @@ pub struct RectangleSolidAngle {
 }
 
 impl RectangleSolidAngle {
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn new(shape: Rectangle, local: Local) -> Option<Self> {
         let seen = SphericalRectangle::new(local.corner, local.size, local.height)?;
         Some(Self { shape, local, seen })
@@ -128,7 +128,7 @@ impl RectangleSolidAngle {
 }
 
 impl SurfaceView for RectangleSolidAngle {
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn sample(&self, u: [f32; 2]) -> Option<SurfaceSample> {
         let place = self.seen.sample(u);
         let [x, y, z] = self.local.axes;
@@ -144,7 +144,7 @@ impl SurfaceView for RectangleSolidAngle {
         Some(SurfaceSample { at, wi: way * (1.0 / length), distance })
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn pdf_solid_angle(&self, _: &SurfacePoint, _: Vec3, _: f32) -> Option<f32> {
         Some(1.0 / self.seen.solid_angle())
     }

@@ -29,7 +29,7 @@ impl SampledShape for Triangle {
         warp::triangle_to_square([b1, b2])
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn with_view<U: UseView<Self::View>>(
         &self,
         from: &Receiver,
@@ -48,7 +48,7 @@ impl SampledShape for Triangle {
 impl FlatShape for Triangle {
     type SolidAngle = TriangleSolidAngle;
 
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn solid_angle_view(&self, from: Vec3, _: &Chart) -> Option<TriangleSolidAngle> {
         TriangleSolidAngle::new(*self, from)
     }
@@ -81,20 +81,20 @@ pub struct TriangleSolidAngle {
 }
 
 impl TriangleSolidAngle {
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn new(shape: Triangle, from: Vec3) -> Option<Self> {
         Some(Self { shape, seen: SphericalTriangle::new(from, &shape.corners())? })
     }
 }
 
 impl SurfaceView for TriangleSolidAngle {
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn sample(&self, u: [f32; 2]) -> Option<SurfaceSample> {
         let TrianglePlace { barycentric: [b1, b2], direction: wi, distance } = self.seen.sample(u)?;
         Some(SurfaceSample { at: self.shape.point(b1 as f32, b2 as f32), wi, distance })
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn pdf_solid_angle(&self, _: &SurfacePoint, _: Vec3, _: f32) -> Option<f32> {
         Some(1.0 / self.seen.solid_angle())
     }

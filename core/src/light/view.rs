@@ -20,7 +20,7 @@ pub struct SurfaceSample {
 
 impl SurfaceSample {
     /// Looks at a surface point from `from`; `None` when the two coincide.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     #[must_use]
     pub fn toward(from: Vec3, at: SurfacePoint) -> Option<Self> {
         let v = at.point - from;
@@ -70,7 +70,7 @@ pub(super) struct Keep;
 impl<A> UseView<A> for Keep {
     type Output = A;
 
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn with<V: SurfaceView>(self, view: V, any: impl FnOnce(V) -> A) -> Option<A> {
         Some(any(view))
     }
@@ -93,7 +93,7 @@ impl<S: SampledShape> AreaView<S> {
 }
 
 impl<S: SampledShape> SurfaceView for AreaView<S> {
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn sample(&self, u: [f32; 2]) -> Option<SurfaceSample> {
         SurfaceSample::toward(self.from, self.shape.sample_area(u))
     }
@@ -142,7 +142,7 @@ pub enum View<S, W, P> {
 }
 
 impl<S: SampledShape, W: SurfaceView, P: SurfaceView> SurfaceView for View<S, W, P> {
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn sample(&self, u: [f32; 2]) -> Option<SurfaceSample> {
         match self {
             Self::Area(v) => v.sample(u),

@@ -35,7 +35,7 @@ impl Layout {
     /// `None` for a polygon that rounding has turned inside out, or that has no width.
     ///
     /// * `n` – how many corners it has
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn of<const N: usize>(outline: &Outline<N>, n: usize) -> Option<Self> {
         let (mut forward, mut backward) = (0_u32, 0_u32);
         for i in 0..n {
@@ -73,7 +73,7 @@ impl Layout {
     /// The corner that a sweep starts from.
     ///
     /// * `n` – how many there are
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn first(&self, n: usize) -> Step {
         match self {
             Self::Around(all) => Step::new(all.at, [all.at; 2], true),
@@ -84,7 +84,7 @@ impl Layout {
     /// The next corner in the order of azimuth.
     ///
     /// * `n` – how many there are
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn advance<const N: usize>(&mut self, outline: &Outline<N>, n: usize) -> Option<Step> {
         match self {
             Self::Around(all) if all.left == 0 => None,
@@ -105,7 +105,7 @@ impl Layout {
 }
 
 impl Chain {
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn go(&mut self, to: usize) {
         *self = Self { at: to, left: self.left - 1 };
     }
@@ -115,7 +115,7 @@ impl Step {
     /// That of the first corner, alone.
     pub(super) const FIRST: Self = Self { corner: 0, edge: [0; 2], outward: true };
 
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn new(corner: usize, edge: [usize; 2], outward: bool) -> Self {
         Self { corner: corner as u8, edge: edge.map(|i| i as u8), outward }
     }
@@ -151,7 +151,7 @@ impl<const N: usize> Above<N> {
     /// the corner k at `(X_kj p_i + X_ik p_j) / X_ij`, and is `det(p_i, p_j, p_k) / X_ij` above or below
     /// it; the determinant is the plane's times that of the places. The outer end comes from the first:
     /// its direction does not depend on `X_ij`, of which few digits may be known.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn cut(&self, step: &Step) -> Cut {
         let (corner, [i, j]) = (step.corner.into(), step.edge.map(usize::from));
         let point = self.point(corner);

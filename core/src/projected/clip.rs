@@ -29,7 +29,7 @@ pub(super) struct Above<const N: usize> {
 
 impl<const N: usize> Above<N> {
     /// No corners.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn empty() -> Self {
         Self { volume: 0.0, outline: Outline::empty(), points: [DVec3::ZERO; N] }
     }
@@ -37,7 +37,7 @@ impl<const N: usize> Above<N> {
     /// Adds the corners at `places`, and turns the frame; none when the receiver is in the plane.
     ///
     /// True when all are above the horizon.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn fill(&mut self, frame: &mut Frame, chart: &Chart, places: &[Vec2]) -> bool {
         self.volume = chart.volume().abs();
         if !(self.volume > 0.0 && self.volume < f64::INFINITY) {
@@ -86,7 +86,7 @@ impl<const N: usize> Above<N> {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn push(&mut self, place: DVec2, point: DVec3) {
         let i = self.outline.len;
         if i < N {
@@ -97,7 +97,7 @@ impl<const N: usize> Above<N> {
     }
 
     /// The corner with the index `i` in the receiver's frame (m).
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn point(&self, i: usize) -> DVec3 {
         self.points[i]
     }
@@ -105,13 +105,13 @@ impl<const N: usize> Above<N> {
 
 impl<const N: usize> Outline<N> {
     /// No corners.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn empty() -> Self {
         Self { zenith: DVec3::ZERO, places: [DVec2::ZERO; N], len: 0 }
     }
 
     /// The corners above the horizon and on it, in the plane's coordinates.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn places(&self) -> &[DVec2] {
         &self.places[..self.len]
     }
@@ -122,26 +122,26 @@ impl<const N: usize> Outline<N> {
     /// Derived: `n · (p_i × p_j)` is `det(zenith, i, j)` in the plane's homogeneous coordinates, by
     /// cofactors. Rounding of the zenith's coordinates then is one of the plane's, however long, narrow
     /// and far the polygon.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn azimuth(&self, i: usize, j: usize) -> f64 {
         self.zenith.dot(cross(self.places[i], self.places[j]))
     }
 
     /// [`Outline::azimuth`], and how far it may be off.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn azimuth_and_rounding(&self, i: usize, j: usize) -> (f64, f64) {
         let [x, y, z] = (self.zenith * cross(self.places[i], self.places[j])).to_array();
         (x + y + z, ROUNDING * (x.abs() + y.abs() + z.abs()))
     }
 
     /// The corner with the index `i` in homogeneous coordinates of the plane.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn homogeneous(&self, i: u8) -> Vec3 {
         self.places[usize::from(i)].as_vec2().extend(1.0)
     }
 
     /// Twice the area of the triangle between three corners.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn doubled_area(&self, i: usize, j: usize, k: usize) -> f64 {
         let first = self.places[i];
         (self.places[j] - first).perp_dot(self.places[k] - first).abs()
@@ -149,7 +149,7 @@ impl<const N: usize> Outline<N> {
 }
 
 /// Cross product of two places in homogeneous coordinates.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn cross(a: DVec2, b: DVec2) -> DVec3 {
     let d = b - a;
     DVec3::new(-d.y, d.x, a.perp_dot(d))

@@ -91,7 +91,7 @@ impl Cut {
     ///
     /// Derived: from the rim's near side at `b k − c q`, `q = √(s² − y²)`, to the unit circle at
     /// `√(1 − y²)` are `(b q + c k)² / (√(1 − y²) + b k − c q)`.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn cut_slice<T: Number>(&self, tau: T) -> Slice<T> {
         let Rim { cosine: k, height: c, aside: b, .. } = self.rim;
         let half_per_tau = (tau * tau + 1.0).recip();
@@ -112,7 +112,7 @@ impl Cut {
     }
 
     /// Projected solid angle of the slices from the middle to `τ` (sr), as if all ended at the horizon.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn mass_of_cut_slices(&self, tau: f32) -> f32 {
         let [low, high] = GAUSS.map(|(node, weight)| self.cut_slice(node * tau).strip() * weight);
         let [a, b, c, d] = (low + high).to_array();
@@ -191,7 +191,7 @@ impl Cut {
 
 impl<T: Number> Slice<T> {
     /// Mass over `dτ`.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn strip(&self) -> T {
         self.length * self.across * self.per_tau
     }
@@ -199,7 +199,7 @@ impl<T: Number> Slice<T> {
 
 impl Slice<f32> {
     /// Derivative of the strip by `τ`, over the strip.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn growth(&self, tau: f32, is_clear: bool, height: f32) -> f32 {
         let Self { y, across, half_rim: q, circle, length, .. } = *self;
         let lengthening = if is_clear { 1.0 / q } else { (q / circle + height) / length };

@@ -13,7 +13,7 @@ pub(super) struct Ends {
 /// The cosines of the outer arcs, and the projected solid angles (sr) where these are not wide.
 ///
 /// It is [`super::sector::Sector::area_to`] of the whole, where both outer ends are unit vectors.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn areas(first: &Ends, last: &Ends, pole: [Vec4; 3], to_zenith: bool) -> (Vec4, Vec4) {
     let ([ax, ay, az], [bx, by, bz]) = (first.outer, last.outer);
     let across = ax * bx + ay * by;

@@ -21,7 +21,7 @@ impl Meridian {
     }
 
     /// The meridian at the fraction `t` of the chords from `self` to `other`.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn toward(&self, other: &Self, t: f32) -> Self {
         let s = 1.0 - t;
         Self { outer: self.outer * s + other.outer * t, rise: self.rise * s + other.rise * t }
@@ -49,7 +49,7 @@ pub(super) struct Places {
 
 impl Places {
     /// The place at a height above the outer end of a meridian with a rise.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn at(&self, height: f32, rise: f32) -> Vec3 {
         let t = if rise > 0.0 { (height / rise).min(1.0) } else { 0.0 };
         self.outer * (1.0 - t) + self.inner * t

@@ -19,35 +19,35 @@ pub(super) trait Number:
 }
 
 impl Number for f32 {
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn recip(self) -> Self {
         1.0 / self
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn sqrt(self) -> Self {
         num::sqrt(self)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn if_positive(self, yes: Self, no: Self) -> Self {
         if self > 0.0 { yes } else { no }
     }
 }
 
 impl Number for Vec4 {
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn recip(self) -> Self {
         1.0 / self
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn sqrt(self) -> Self {
         // The method of the type, which rounds correctly too.
         Self::sqrt(self)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn if_positive(self, yes: Self, no: Self) -> Self {
         Self::select(self.cmpgt(Self::ZERO), yes, no)
     }

@@ -61,7 +61,7 @@ impl<const N: usize> ProjectedPolygon<N> {
     /// * `normal` – the receiver's unit normal
     /// * `chart` – the polygon's plane, seen from the receiver
     /// * `corners` – at most `N − 2`, convex, counter-clockwise in the chart's coordinates
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     #[must_use]
     pub fn new(normal: Vec3, chart: &Chart, corners: &[Vec2]) -> Option<Self> {
         let mut polygon = Self::empty(normal);
@@ -69,13 +69,13 @@ impl<const N: usize> ProjectedPolygon<N> {
     }
 
     /// Nothing yet.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn empty(normal: Vec3) -> Self {
         Self { frame: Frame::from_normal(normal), zenith: Vec3::ZERO, sectors: Sectors::empty() }
     }
 
     /// [`ProjectedPolygon::new`] in place, from nothing; false instead of `None`.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn prepare(&mut self, chart: &Chart, corners: &[Vec2]) -> bool {
         let mut above = Above::<N>::empty();
         if above.fill(&mut self.frame, chart, corners) {

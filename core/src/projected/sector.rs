@@ -33,7 +33,7 @@ impl Sector {
     /// The piece from `first` counter-clockwise to `last`.
     ///
     /// * `pole` – cross product of the outer ends; of their azimuth vectors, its z, above 0
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn new(first: Meridian, last: Meridian, pole: Vec3, to_zenith: bool) -> Self {
         let (a, b) = (first.outer, last.outer);
         let (ea, eb) = (a.truncate(), b.truncate());
@@ -45,7 +45,7 @@ impl Sector {
     }
 
     /// True when the outer arc is much beyond a right angle.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn is_wide(&self) -> bool {
         self.cos < WIDE
     }
@@ -88,7 +88,7 @@ impl Sector {
 
     /// The meridian at the fraction `t` of the chords, and how much of the sides of the whole piece is
     /// in it.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn at(&self, t: f32) -> (Meridian, Vec2) {
         let [a, b] = self.sides;
         (self.first.toward(&self.last, t), a * (1.0 - t) + b * t)
@@ -98,7 +98,7 @@ impl Sector {
     ///
     /// Derived: `sin² θ` is the azimuth vector's square over that of the whole vector, Q, so `1 / Q`
     /// is even between both ends.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn height_of(&self, meridian: &Meridian, v: f32) -> f32 {
         let outer2 = meridian.outer.length_squared();
         let square = if self.to_zenith {
@@ -132,12 +132,12 @@ impl Sector {
     /// vectors and N = |p_a × p_b|, the part below is `½ X θ / N` (Lambert 1760). By
     /// `tan(θ/2) = N / K`, `K = p_a·p_b + |p_a| |p_b|`, that is `X H(N² / K²) / K`, and the
     /// difference of two such terms is one of divided differences.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn area_to(&self, t: f32) -> f32 {
         self.area_of(&self.part(t))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn part(&self, t: f32) -> Part {
         let (cos, sin2) = (1.0 + t * (self.cos - 1.0), t * t * self.sin2);
         let (da, sa) = (self.first.rise, self.first.height_sum());
@@ -146,7 +146,7 @@ impl Sector {
         Part { t, cos, sin2, outer2: cos * cos + sin2, rise, height_sum, square: rise * height_sum }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn area_of(&self, part: &Part) -> f32 {
         let Part { t, cos, sin2, outer2, rise, height_sum, square: qt } = *part;
         let outer = num::sqrt(outer2);
@@ -168,7 +168,7 @@ impl Sector {
     }
 
     /// Derivative of [`Sector::area_to`], the area of the strip there; and half of its own over it.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn strip(&self, part: &Part) -> (f32, f32) {
         let Part { t, outer2, rise, height_sum, square, .. } = *part;
         // Half the derivatives of the squares.
@@ -190,7 +190,7 @@ impl Sector {
     /// * `whole` – that of the whole (sr)
     ///
     /// Halley's method on [`Sector::area_to`] within a shrinking bracket.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn fraction_at(&self, area: f32, whole: f32) -> f32 {
         let mut t = self.first_guess(area / whole, whole);
         let (mut low, mut high) = (0.0, 1.0);
@@ -223,7 +223,7 @@ impl Sector {
     ///
     /// Source: Gregory and Delbourgo 1982, *Piecewise Rational Quadratic Interpolation to Monotonic
     /// Data*, IMA J. Numer. Anal. 2(2). Derived: its inverse.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn first_guess(&self, s: f32, whole: f32) -> f32 {
         let r = 1.0 - s;
         let per_whole = 0.5 * self.pole.z / whole;

@@ -62,7 +62,7 @@ struct Reached {
 
 impl<const N: usize> Sectors<N> {
     /// None.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn empty() -> Self {
         Self {
             to_zenith: false,
@@ -81,7 +81,7 @@ impl<const N: usize> Sectors<N> {
     /// Adds those of a polygon; none when rounding has turned it inside out, or it has no width.
     ///
     /// * `n` – how many corners it has
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn fill(&mut self, above: &Above<N>, n: usize) {
         if let Some(layout) = Layout::of(&above.outline, n) {
             self.to_zenith = layout.is_around();
@@ -101,7 +101,7 @@ impl<const N: usize> Sectors<N> {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn sweep(&mut self, above: &Above<N>, mut layout: Layout, n: usize) {
         let outline = &above.outline;
         let mut before = self.put(0, above, &layout.first(n), 1.0);
@@ -124,7 +124,7 @@ impl<const N: usize> Sectors<N> {
     }
 
     /// Stores a side; the first one sets the unit.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn put(&mut self, i: usize, above: &Above<N>, step: &Step, unit: f64) -> Reached {
         let Cut { outer, rise, shares } = above.cut(step);
         let scale = 1.0 / num::sqrt_in_double(outer.length_squared());
@@ -140,7 +140,7 @@ impl<const N: usize> Sectors<N> {
     }
 
     /// Works out the areas.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn measure(&mut self) {
         self.measure_four(0);
         for i in (4..self.len).step_by(4) {
@@ -148,7 +148,7 @@ impl<const N: usize> Sectors<N> {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn measure_four(&mut self, i: usize) {
         let pole = self.poles.each_ref().map(|p| four(p, i));
         let (cos, areas) = lanes::areas(&self.ends(i), &self.ends(i + 1), pole, self.to_zenith);
@@ -179,7 +179,7 @@ impl<const N: usize> Sectors<N> {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn ends(&self, i: usize) -> Ends {
         Ends { outer: self.outer.each_ref().map(|o| four(o, i)), rise: four(&self.rises, i) }
     }
@@ -191,14 +191,14 @@ impl<const N: usize> Sectors<N> {
     }
 
     /// The side with the index `i`.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn meridian(&self, i: usize) -> Meridian {
         let [x, y, z] = self.outer.each_ref().map(|o| o[i]);
         Meridian { outer: Vec3::new(x, y, z), rise: self.rises[i] }
     }
 
     /// Where the side with the index `i` is.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn places(&self, i: usize) -> Places {
         let Source { step, shares: [a, b], weight, kept } = self.sources[i];
         let here = self.outline.homogeneous(step.corner);
@@ -211,14 +211,14 @@ impl<const N: usize> Sectors<N> {
     /// Where a meridian of the sector with the index `i` is.
     ///
     /// * `sides` – how much of the two sides of the sector is in it
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn places_between(&self, i: usize, sides: Vec2) -> Places {
         let (a, b) = (self.places(i), self.places(i + 1));
         Places { outer: a.outer * sides.x + b.outer * sides.y, inner: a.inner * sides.x + b.inner * sides.y }
     }
 
     /// The sector with the index `i`.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn get(&self, i: usize) -> Sector {
         let pole = self.poles.each_ref().map(|p| p[i]).into();
         Sector::new(self.meridian(i), self.meridian(i + 1), pole, self.to_zenith)
@@ -226,7 +226,7 @@ impl<const N: usize> Sectors<N> {
 }
 
 /// Four numbers from index `i` on, 0 beyond the end.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn four(values: &[f32], i: usize) -> Vec4 {
     match values.get(i..i + 4) {
         Some(four) => Vec4::from_slice(four),

@@ -23,7 +23,7 @@ impl Disk {
     /// A disk that was checked before: for constants; see [`crate::Scene::baked`].
     #[must_use]
     pub const fn baked(centre: Vec3, axis_u: Vec3, axis_v: Vec3) -> Self {
-        Self(Planar { centre, axis_u: axis_u, axis_v: axis_v })
+        Self(Planar { centre, axis_u, axis_v })
     }
 
     /// Centre (m).

@@ -63,29 +63,29 @@ struct Axis {
 }
 
 impl Axis {
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn new(low: f32, size: f32) -> Self {
         let turned = low + 0.5 * size < 0.0;
         Self { low: if turned { -(low + size) } else { low }, size, turned }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn scaled(&self, scale: f32) -> Self {
         Self { low: self.low * scale, size: self.size * scale, ..*self }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn high(&self) -> f32 {
         self.low + self.size
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn spans_foot(&self) -> bool {
         self.low < 0.0
     }
 
     /// From here to the rectangle's own offset and fraction, or back.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn turn(&self, [offset, fraction]: [f32; 2]) -> [f32; 2] {
         if self.turned { [-offset, 1.0 - fraction] } else { [offset, fraction] }
     }
@@ -115,14 +115,14 @@ struct Column {
 }
 
 /// `τ` of `Δ`.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn tau(delta: f32) -> f32 {
     let square = delta * delta;
     square / (1.0 + num::sqrt(1.0 + square))
 }
 
 impl Strip {
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn new(y: &Axis, z: f32) -> Self {
         let (y0, y1) = (y.low, y.high());
         let zz = z * z;
@@ -130,7 +130,7 @@ impl Strip {
         Self { y0, y1, size: y.size, z, inverse_rho, kappa: zz * inverse_rho }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn column(&self, x: f32) -> Column {
         let Self { y0, y1, z, .. } = *self;
         let d2 = x * x + z * z;
@@ -149,13 +149,13 @@ impl Strip {
     }
 
     /// The column with the sine of its angle and `Δ²`.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn x_of(&self, sin: f32, delta2: f32) -> f32 {
         self.z * sin / (self.kappa * num::sqrt(delta2))
     }
 
     /// Where `v` of the column's solid angle is below, in `[y₀, y₁]`, and how far from `y₀`.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn along(&self, x: f32, v: f32) -> [f32; 2] {
         let Self { y0, y1, size, z, .. } = *self;
         let dd = x * x + z * z;
@@ -199,7 +199,7 @@ impl SphericalRectangle {
     /// plane; all in one unit of length. The size counts for itself: far away the sum has lost it.
     ///
     /// `None` when the size or the height is not above 0, or something is not finite.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     #[must_use]
     pub fn new(corner: [f32; 2], size: [f32; 2], height: f32) -> Option<Self> {
         let [first, second] = [0, 1].map(|i| Axis::new(corner[i], size[i]));
@@ -224,21 +224,21 @@ impl SphericalRectangle {
     }
 
     /// The solid angle (sr), in `(0, 2π]`.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     #[must_use]
     pub fn solid_angle(&self) -> f32 {
         self.solid_angle
     }
 
     /// The unit of offsets: the farthest coordinate, or the height.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     #[must_use]
     pub fn reach(&self) -> f32 {
         self.reach
     }
 
     /// The height in units of the reach.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     #[must_use]
     pub fn height(&self) -> f32 {
         self.strip.z
@@ -254,7 +254,7 @@ impl SphericalRectangle {
     /// Draws a place with the density `1 / solid_angle` (sr⁻¹) in its direction.
     ///
     /// * `u` – two independent uniforms, each in `[0, 1)`
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     #[must_use]
     pub fn sample(&self, u: [f32; 2]) -> RectanglePlace {
         let x = self.column_of(u[0]);
@@ -285,7 +285,7 @@ impl SphericalRectangle {
     }
 
     /// The column below which is the share `u` of the solid angle, and how far from the low one.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn column_of(&self, u: f32) -> [f32; 2] {
         let (sin, cos) = num::sin_cos(0.5 * u * self.solid_angle);
         // Half of what is above the column.
@@ -310,7 +310,7 @@ impl SphericalRectangle {
     ///
     /// * `sin` – of the column's angle
     /// * `rest` – cosine and sine of half the angle up to the high column
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn column_across(&self, sin: f32, fall: f32, [cos_r, sin_r]: [f32; 2]) -> [f32; 2] {
         let Self { x: Axis { low, size, .. }, strip, low: low_column, high: high_column, .. } = self;
         // From the end on the same side.
@@ -326,7 +326,7 @@ impl SphericalRectangle {
     }
 
     /// With the foot beside both ends: the step from the low one, of terms that are all positive.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn column_beside(&self, sin: f32, fall: f32, rise: f32) -> [f32; 2] {
         let Self { x: Axis { low, size, .. }, strip, low: low_column, high: high_column, .. } = self;
         let (tau, tau_low) =
@@ -342,7 +342,7 @@ impl SphericalRectangle {
 }
 
 /// Solid angle (sr) from a low to a high column on two sides of the foot, and half of it.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn both_sides(low: &Column, high: &Column) -> (f32, [f32; 2]) {
     let cos = low.cos * high.cos + low.sin * high.sin;
     let sin = high.sin * low.cos - low.sin * high.cos;
@@ -359,7 +359,7 @@ fn both_sides(low: &Column, high: &Column) -> (f32, [f32; 2]) {
 ///
 /// Source: Van Oosterom, Strackee 1983, *The Solid Angle of a Plane Triangle*, IEEE Trans. Biomed.
 /// Eng. 30(2), equation 8.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn one_corner(x: &Axis, strip: &Strip, low: &Column, high: &Column) -> (f32, [f32; 2]) {
     let Strip { y0, y1, z, .. } = *strip;
     let (x0, x1) = (x.low, x.high());

@@ -68,7 +68,7 @@ pub(crate) struct Apex {
 }
 
 impl Apex {
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn new(from: Vec3, corner: Vec3) -> Self {
         let (from, corner) = (from.as_dvec3(), corner.as_dvec3());
         let origin = corner - from;
@@ -91,7 +91,7 @@ pub(crate) struct Corner {
 }
 
 impl Corner {
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn new(apex: &Apex, corner: Vec3) -> Self {
         let corner = corner.as_dvec3();
         // Not from the receiver's distances, which far from a needle have lost its width.
@@ -105,14 +105,14 @@ impl Corner {
 
 /// Volume of the apex's direction and two ways (m²). Their product comes first: next to a needle both
 /// are all but along the direction.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn volume(apex: &Apex, a: &Corner, b: &Corner) -> f64 {
     apex.v.dot(a.way.cross(b.way)).abs()
 }
 
 /// `1 + Σ cos` as `(vᵢ + vₖ)·(vⱼ + vₖ)`. In a needle's plane the first and second are opposite to the
 /// third; their sums are small, and so is what they lose.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn cosines([v0, v1, v2]: [DVec3; 3]) -> f64 {
     let (c0, c1, c2) = (v1.dot(v2), v2.dot(v0), v0.dot(v1));
     let (i, j, k) = if c0 >= c1 && c0 >= c2 {
@@ -127,7 +127,7 @@ fn cosines([v0, v1, v2]: [DVec3; 3]) -> f64 {
 
 /// Sine and cosine of half the solid angle of a triangle, from either side, times one number above 0; NaN
 /// at a corner.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 #[must_use]
 pub(crate) fn half_solid_angle(apex: &Apex, a: &Corner, b: &Corner) -> [f32; 2] {
     [(volume(apex, a, b) / (a.l * b.l)) as f32, cosines([apex.v, a.v, b.v]) as f32]
@@ -144,7 +144,7 @@ impl SphericalTriangle {
     ///
     /// `None` in its plane, when it has no area or is too small for `f32` from there, or when something
     /// is not finite.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     #[must_use]
     pub fn new(from: Vec3, corners: &[Vec3; 3]) -> Option<Self> {
         let apex = Apex::new(from, corners[0]);
@@ -154,7 +154,7 @@ impl SphericalTriangle {
     }
 
     /// The same with corners whose solid angle (sr) is known.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn from_corners(apex: &Apex, a: &Corner, b: &Corner, solid_angle: f32) -> Option<Self> {
         // The planes through the apex: their angle is that at the apex.
         let (to_a, to_b) = (apex.v.cross(a.way), apex.v.cross(b.way));
@@ -190,7 +190,7 @@ impl SphericalTriangle {
     /// the receiver's own, as far as double precision can tell.
     ///
     /// * `u` – two independent uniforms, each in `[0, 1)`
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     #[must_use]
     pub fn sample(&self, u: [f32; 2]) -> Option<TrianglePlace> {
         let arc = Arc::new(self, num::sin_cos(0.5 * u[0] * self.solid_angle));
@@ -277,7 +277,7 @@ struct Arc {
 
 impl Arc {
     /// * `sin_h`, `cos_h` – of half the area to cut off
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn new(triangle: &SphericalTriangle, (sin_h, cos_h): (f32, f32)) -> Self {
         let SphericalTriangle { alpha: [cos_a, sin_a], versine, versine_below, cot_half, .. } = *triangle;
         let (sin_h, cos_h) = (f64::from(sin_h), f64::from(cos_h));

@@ -87,7 +87,7 @@ impl SampledShape for Sphere {
         outward.dot(from - at.point) < 0.0 && self.clearance(from) > 0.0
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn with_view<U: UseView<Self::View>>(
         &self,
         from: &Receiver,

@@ -1,4 +1,4 @@
-//! The size of (a), see the library.
+//! The size of (a), see the library; with feature `stack` its stack is printed.
 #![no_std]
 #![no_main]
 
@@ -7,8 +7,15 @@ use halflight_firmware::machine::entry;
 
 #[entry]
 fn main() -> ! {
-    panel::run();
-    loop {}
+    #[cfg(feature = "stack")]
+    halflight_firmware::machine::print_stack_of(panel::run);
+    #[cfg(not(feature = "stack"))]
+    loop {
+        panel::run();
+    }
 }
 
+#[cfg(not(feature = "stack"))]
 halflight_firmware::nothing_panics!();
+#[cfg(feature = "stack")]
+halflight_firmware::panics_end!();

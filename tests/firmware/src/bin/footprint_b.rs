@@ -1,4 +1,4 @@
-//! The size of (b), see the library.
+//! The size of (b), see the library; with feature `stack` its stack is printed.
 #![no_std]
 #![no_main]
 
@@ -7,8 +7,15 @@ use halflight_firmware::machine::entry;
 
 #[entry]
 fn main() -> ! {
-    triangles::run();
-    loop {}
+    #[cfg(feature = "stack")]
+    halflight_firmware::machine::print_stack_of(triangles::run);
+    #[cfg(not(feature = "stack"))]
+    loop {
+        triangles::run();
+    }
 }
 
+#[cfg(not(feature = "stack"))]
+halflight_firmware::nothing_panics!();
+#[cfg(feature = "stack")]
 halflight_firmware::panics_end!();

@@ -1,4 +1,4 @@
-//! The size of (c), see the library.
+//! The size of (c), see the library; with feature `stack` its stack is printed.
 #![no_std]
 #![no_main]
 
@@ -7,8 +7,12 @@ use halflight_firmware::machine::entry;
 
 #[entry]
 fn main() -> ! {
-    everything::run();
-    loop {}
+    #[cfg(feature = "stack")]
+    halflight_firmware::machine::print_stack_of(everything::run);
+    #[cfg(not(feature = "stack"))]
+    loop {
+        everything::run();
+    }
 }
 
 halflight_firmware::panics_end!();

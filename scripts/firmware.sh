@@ -1,0 +1,83 @@
+#!/usr/bin/env bash
+# Renders on microcontrollers under QEMU, and measures what the core takes there.
+#
+#   scripts/firmware.sh run TARGET     render on a machine; fails unless the pixels are those of this one
+#   scripts/firmware.sh footprint      flash and stack beside tests/firmware/budget.txt
+#   scripts/firmware.sh counts         instructions for each sample, by density
+#
+# TARGET: thumbv7em-none-eabihf, thumbv6m-none-eabi or riscv32imac-unknown-none-elf.
+set -euo pipefail
+root=$(cd "$(dirname "$0")/.." && pwd)
+cd "$root/tests/firmware"
+export CARGO_TARGET_DIR=${CARGO_TARGET_DIR:-$root/target}/firmware
+
+# Its own workspace, with targets that the toolchain in use may not have.
+for_target() {
+    local target=$1
+    shift
+    "$root/scripts/target-env.sh" "$target" cargo "$@" --quiet --locked --release --target "$target"
+}
+
+run() {
+    for_target "$1" build --bin picture
+    for_target "$1" run --bin picture
+}
+
+m4f=thumbv7em-none-eabihf
+elf() { echo "$CARGO_TARGET_DIR/$m4f/release/footprint_$1"; }
+qemu() { timeout 120 qemu-system-arm -M mps2-an386 -nographic -semihosting-config enable=on,target=native "$@"; }
+
+# Bytes of the sections that stay in flash.
+flash() {
+    local sum=0 name size
+    while read -r name size; do
+        case $name in .vector_table | .text | .rodata | .data) sum=$((sum + 16#$size)) ;; esac
+    done < <(readelf -SW "$1" | tr -d '[]' | awk '{ print $2, $6 }')
+    echo $sum
+}
+# Bytes of the scene among them.
+data() {
+    readelf -sW "$1" | awk '$4 == "OBJECT" && $8 ~ /scenes/ { sum += $3 } END { print sum + 0 }'
+}
+
+footprint() {
+    local over=0 name most_flash most_stack bytes scene stack
+    declare -A stacks
+    # The stacks first: the programs without a word to say stay for a look with nm.
+    for_target $m4f build --features stack --bin footprint_a --bin footprint_b
+    for_target $m4f build --features small,stack --bin footprint_c
+    for name in a b c; do
+        stacks[$name]=$(qemu -kernel "$(elf $name)")
+    done
+    # What chooses nothing at run time is smallest when it is in line.
+    for_target $m4f build --bin footprint_a --bin footprint_b
+    for_target $m4f build --features small --bin footprint_c
+    printf '%-8s %10s %10s %10s %10s %10s\n' program flash 'at most' stack 'at most' scene
+    while read -r name most_flash most_stack; do
+        [[ $name != '#'* ]] || continue
+        scene=$(data "$(elf "$name")")
+        bytes=$(($(flash "$(elf "$name")") - scene))
+        stack=${stacks[$name]}
+        printf '%-8s %10d %10d %10d %10d %10d\n' "$name" "$bytes" "$most_flash" "$stack" "$most_stack" "$scene"
+        [ "$bytes" -le "$most_flash" ] && [ "$stack" -le "$most_stack" ] || over=1
+    done <budget.txt
+    if [ $over = 1 ]; then
+        echo "firmware.sh: more than tests/firmware/budget.txt allows" >&2
+        return 1
+    fi
+}
+
+counts() {
+    for_target $m4f build --features counts --bin counts
+    qemu -icount shift=0 -kernel "$CARGO_TARGET_DIR/$m4f/release/counts"
+}
+
+case ${1:-} in
+    run) run "${2:?TARGET}" ;;
+    footprint) footprint ;;
+    counts) counts ;;
+    *)
+        sed -n '2,8p' "$0" >&2
+        exit 2
+        ;;
+esac
