@@ -1,12 +1,12 @@
 //! A light by someone else: nothing but the public interface.
 
-use glam::Vec3;
 use halflight::Rgb;
 use halflight::bsdf::Lambert;
 use halflight::bvh::{Bvh, Child, Node};
 use halflight::choose::LightChoice;
 use halflight::estimate::{Direct, Estimator, PixelStats, Probe, Technique};
 use halflight::geom::{Frame, Ray};
+use halflight::glam::Vec3;
 use halflight::light::{Density, Emitter, LightSample, Receiver, SurfaceDensity};
 use halflight::num::{FRAC_1_PI, PI};
 use halflight::scene::{NONE, Scene, Surface, Tables};
