@@ -269,7 +269,9 @@ mod tests {
     fn the_estimate_is_the_error_of_independent_samples() {
         for samples in [16, 64, 100, 256] {
             let (estimate, truth) = errors(Random::<rand_pcg::Pcg32>::new(3), samples, edge, edge_exact);
-            assert!((estimate / truth - 1.0).abs() < 0.2, "{samples}: {estimate} {truth}");
+            // The lesser of two means exaggerates while there are few samples.
+            let most = 1.2 + 10.0 / f64::from(samples);
+            assert!((0.8..most).contains(&(estimate / truth)), "{samples}: {estimate} {truth}");
         }
     }
 
