@@ -117,7 +117,7 @@ impl Bvh<'_> {
 }
 
 /// Returns the child entered first and lets the others wait, the farthest at the bottom.
-#[inline(always)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn nearest_first(
     slots: &[u32; WIDTH],
     entered: &Entered,

@@ -153,7 +153,7 @@ impl Shape for AnyShape {
     }
 
     // Most of what rays are tested against are triangles: they are tested in line.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn intersect(&self, ray: &PreparedRay, t_max: f32) -> Option<ShapeHit> {
         match self {
             Self::Triangle(triangle) => triangle.intersect(ray, t_max),

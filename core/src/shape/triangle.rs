@@ -62,7 +62,7 @@ impl Triangle {
     }
 
     /// The point with barycentric coordinates `1 − b1 − b2`, `b1`, `b2`.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     #[must_use]
     pub fn point(&self, b1: f32, b2: f32) -> SurfacePoint {
         let [a, b, c] = self.corners();
@@ -121,7 +121,7 @@ impl Shape for Triangle {
 
     /// Source: Woop, Benthin, Wald 2013, *Watertight Ray/Triangle Intersection*, JCGT 2(1),
     /// appendix A; bound on `t` after Pharr, Jakob, Humphreys 2023, section 6.8.7.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
     fn intersect(&self, ray: &PreparedRay, t_max: f32) -> Option<ShapeHit> {
         // The corners relative to the origin, axis by axis, in the sheared space of the ray.
         let along = self.axes[ray.axes[2] as usize] - ray.origin[2];

@@ -10,15 +10,21 @@ mod picture;
 mod scenes;
 mod sources;
 
+use halflight::bsdf::{Bsdf, Phong, RoughPlastic};
 use halflight::build::{Description, SceneBuffers};
-use halflight::estimate::PixelStats;
+use halflight::estimate::{
+    ByArea, ByLight, ByProjected, BySolidAngle, Direct, Estimator, PixelStats, StaticDensity, Technique,
+};
 use halflight::film::Film;
-use halflight::light::Emitter;
+use halflight::glam::Vec3;
+use halflight::light::{AnyLight, Directional, Emitter};
+use halflight::load::builtin::{BUILTIN, builtin};
 use halflight::load::{ExportError, rust_source};
 use halflight::material::Material;
-use halflight::scene::BakedError;
-use halflight::shape::Shape;
-use halflight::{Camera, Scene};
+use halflight::scene::{BakedError, CornerNormals, Surface, Tables};
+use halflight::sequence::{Dimension, Sequence, Sobol};
+use halflight::shape::{AnyShape, Shape, Triangle};
+use halflight::{Camera, Rgb, Scene};
 use std::fs;
 use std::path::Path;
 
@@ -89,14 +95,80 @@ fn the_firmware_prints_what_this_machine_computes() {
 }
 
 #[test]
+fn an_estimator_without_choices_draws_the_same_samples() {
+    use scenes::cornell as baked;
+    fn same<D: StaticDensity>() {
+        let direct = Direct { technique: Technique::Light, surface: D::SURFACE, ..Direct::default() };
+        let (mut few, mut all) = (Sobol::new(1), Sobol::new(1));
+        let scene = baked::scene().unwrap();
+        for sample in 0..1024 {
+            few.start(0, sample);
+            all.start(0, sample);
+            let [x, y] = few.point(Dimension::Film, 0, 1).map(|u| 2.0 * u - 1.0);
+            let (ray, reach) = baked::CAMERA.ray(x, y);
+            let small = ByLight::<D>::new().sample(&scene, &ray, reach, &mut few);
+            assert_eq!(small, direct.sample(&scene, &ray, reach, &mut all), "{:?}", D::SURFACE);
+        }
+    }
+    same::<ByArea>();
+    same::<BySolidAngle>();
+    same::<ByProjected>();
+}
+
+#[test]
+fn a_broken_entry_is_named() {
+    use scenes::everything as baked;
+    let refused =
+        |surfaces: &[Surface<AnyShape>], lights: &[AnyLight<'static>], normals: &[CornerNormals]| {
+            let materials = &baked::MATERIALS;
+            let tables = Tables { surfaces, lights, normals, materials, ..Tables::EMPTY };
+            Scene::baked(&baked::NODES, tables).err()
+        };
+    assert_eq!(refused(&baked::SURFACES, &baked::LIGHTS, &baked::NORMALS), None);
+    let mut surfaces = baked::SURFACES;
+    surfaces[3].shape = AnyShape::Triangle(Triangle::baked([Vec3::X; 3]));
+    let shape = refused(&surfaces, &baked::LIGHTS, &baked::NORMALS);
+    assert!(matches!(shape, Some(BakedError::Shape { surface: 3, .. })), "{shape:?}");
+    let mut lights = baked::LIGHTS;
+    lights[7] = AnyLight::Directional(Directional::baked(Vec3::ONE, Rgb::WHITE));
+    let light = refused(&baked::SURFACES, &lights, &baked::NORMALS);
+    assert!(matches!(light, Some(BakedError::Light { light: 7, .. })), "{light:?}");
+    let normals = refused(&baked::SURFACES, &baked::LIGHTS, &[CornerNormals([Vec3::NAN; 3])]);
+    assert_eq!(normals, Some(BakedError::Normals { index: 0 }));
+    let missing = refused(&baked::SURFACES, &baked::LIGHTS, &[]);
+    assert!(matches!(missing, Some(BakedError::Scene(_))), "{missing:?}");
+}
+
+#[test]
+fn numbers_that_do_not_follow_are_refused() {
+    let phong = Phong::new(Rgb::splat(0.3), Rgb::splat(0.2), 9.0).unwrap();
+    assert!(Phong::baked(phong.diffuse(), phong.specular(), 9.0, phong.specular_pmf()).check().is_ok());
+    assert!(Phong::baked(phong.diffuse(), phong.specular(), 9.0, 0.9).check().is_err());
+    let plastic = RoughPlastic::new(0.2, 1.5).unwrap();
+    let numbers = plastic.to_numbers();
+    assert_eq!(RoughPlastic::baked(numbers), plastic);
+    assert!(plastic.check().is_ok());
+    for index in 0..numbers.len() {
+        let mut broken = numbers;
+        broken[index] = f32::NAN;
+        // The flag is a number that is not 0.
+        assert!(index == 8 || RoughPlastic::baked(broken).check().is_err(), "{index}");
+    }
+}
+
+#[test]
 fn what_is_not_written_is_refused_by_name() {
-    let refused = |d: &Description| match rust_source(d) {
-        Err(ExportError::NotBaked { what, .. }) => what,
-        other => panic!("{other:?}"),
-    };
-    let morning = halflight::load::builtin::builtin("still-life");
-    let textured =
-        halflight::load::builtin::BUILTIN.iter().filter_map(|b| halflight::load::builtin::builtin(b.name));
-    let any = textured.chain(morning).filter(|d| !d.environments.is_empty()).map(|d| refused(&d)).next();
-    assert!(any.is_some_and(|what| what.contains("picture") || what.contains("textures")), "{any:?}");
+    // Textures, pictures of the surroundings: every scene is written, or says what it has.
+    let (mut written, mut refused) = (0, 0);
+    for scene in BUILTIN.iter().filter_map(|b| builtin(b.name)) {
+        match rust_source(&scene) {
+            Ok(_) => written += 1,
+            Err(ExportError::NotBaked { what, .. }) => {
+                assert!(what.contains("texture") || what.contains("picture") || what.contains("portals"));
+                refused += 1;
+            }
+            Err(other) => panic!("{}: {other}", scene.name),
+        }
+    }
+    assert!(written >= 2 && refused >= 1, "{written} {refused}");
 }
