@@ -22,7 +22,7 @@ fn a_scene_with_its_files_is_shown_and_a_broken_one_is_explained() -> Res<()> {
         page.choose_files("#files", &files)?;
         page.wait("halflight.app.facts.name == 'mine'")?;
         page.render(60, 4)?;
-        let line = format!("{} --width 60 --spp 4", folder.join("mine.xml").display());
+        let line = format!("{} --width 60 --spp 4 --sequence sobol", folder.join("mine.xml").display());
         assert!(page.pixels()? == rendered(page.folder.path(), &line)?);
 
         let broken = page.folder.path().join("broken.xml");

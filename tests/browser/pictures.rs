@@ -38,7 +38,8 @@ fn the_page_and_the_command_line_have_the_same_bits() -> Res<()> {
             page.select("Scene", scene)?;
             page.wait(&format!("halflight.app.facts.name == '{scene}'"))?;
             page.render(96, 6)?;
-            let expected = rendered(page.folder.path(), &format!("{scene} --width 96 --spp 6"))?;
+            let expected =
+                rendered(page.folder.path(), &format!("{scene} --width 96 --spp 6 --sequence sobol"))?;
             assert!(page.pixels()? == expected, "{scene}: other bits than the command line's");
         }
         page.select("Technique", "mis")?;
@@ -60,7 +61,9 @@ fn without_workers_the_page_renders_the_same_by_itself() -> Res<()> {
         page.select("Scene", "cornell")?;
         page.wait("halflight.app.facts.name == 'cornell'")?;
         page.render(48, 4)?;
-        assert!(page.pixels()? == rendered(page.folder.path(), "cornell --width 48 --spp 4")?);
+        assert!(
+            page.pixels()? == rendered(page.folder.path(), "cornell --width 48 --spp 4 --sequence sobol")?
+        );
         Ok(())
     })
 }
