@@ -1,7 +1,8 @@
 //! halflight in the browser.
 //!
 //! A thin layer: what JavaScript says becomes a [`halflight::build::Description`] and choices, and what
-//! the core answers becomes numbers in typed arrays. Pixels are those of the command line with `--sequence sobol`, bit for bit.
+//! the core answers becomes numbers in typed arrays. Pixels are those of the command line with
+//! `--sequence sobol`, bit for bit.
 //!
 //! ```js
 //! import init, { Scene } from './halflight.js';
