@@ -8,8 +8,9 @@
 # TARGET: thumbv7em-none-eabihf, thumbv6m-none-eabi or riscv32imac-unknown-none-elf.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
+CARGO_TARGET_DIR=$(realpath -m "${CARGO_TARGET_DIR:-$root/target}/firmware")
+export CARGO_TARGET_DIR
 cd "$root/tests/firmware"
-export CARGO_TARGET_DIR=${CARGO_TARGET_DIR:-$root/target}/firmware
 
 # Its own workspace, with targets that the toolchain in use may not have.
 for_target() {
@@ -20,7 +21,10 @@ for_target() {
 
 run() {
     for_target "$1" build --bin picture
-    for_target "$1" run --bin picture
+    # Built already: this is the machine's time.
+    export -f for_target
+    export root
+    timeout 300 bash -c 'for_target "$1" run --bin picture' run "$1"
 }
 
 m4f=thumbv7em-none-eabihf
