@@ -126,7 +126,7 @@ fn draw_panel(
     let [x, y] = ranges.clone();
     let mut axes = ChartBuilder::on(area)
         .caption(&panel.title, (FONT, 14))
-        .margin_left(6)
+        .margin_left(20)
         .margin_right(12)
         .set_label_area_size(LabelAreaPosition::Left, 64)
         .set_label_area_size(LabelAreaPosition::Bottom, 46)

@@ -18,6 +18,7 @@
 //! stop is the tile's.
 
 use super::convergence::{ErrorEstimate, PRIOR_RATE, RATE};
+use super::hidden::behind_samples;
 use super::{Job, Pixel};
 use crate::film::PixelRect;
 use crate::light::Emitter;
@@ -75,6 +76,8 @@ struct Block {
     samples: u32,
     /// Mean squared changes of its pixels at its last doublings, newest first.
     changes: [f32; MEMORY],
+    /// Mean error of what may hide in its pixels, beside brighter ones.
+    hidden: f32,
 }
 
 /// A tile that is refined step by step.
@@ -147,7 +150,7 @@ impl AdaptiveTile {
         let own: [f32; SIDE * SIDE] = array::from_fn(|i| {
             let [last, before, earlier, _] = self.blocks[i].changes;
             let worst = last.max(before / rate).max(earlier / (rate * rate));
-            CAUTION * worst / (rate - 1.0)
+            CAUTION * worst / (rate - 1.0) + self.blocks[i].hidden
         });
         array::from_fn(
             |i| if self.blocks[i].pixels > 0 { 0.5 * (own[i] + self.around(i, &own)) } else { 0.0 },
@@ -161,6 +164,18 @@ impl AdaptiveTile {
         let there = blocks.filter(|&i| self.blocks[i].pixels > 0);
         let (sum, count) = there.fold((0.0, 0), |(sum, count), i| (sum + values[i], count + 1));
         sum / count as f32
+    }
+
+    /// Works out what may hide in the pixels, now that they have changed.
+    fn look_for_hidden<P: Pixel>(&mut self, pixels: &[P]) {
+        let (rect, width) = (self.rect, self.rect.width() as usize);
+        for i in 0..SIDE * SIDE {
+            let Some(part) = self.part(i) else { continue };
+            let places = (part.y0..part.y1).flat_map(|y| (part.x0..part.x1).map(move |x| (x, y)));
+            let index = |(x, y): (u32, u32)| (y - rect.y0) as usize * width + (x - rect.x0) as usize;
+            let sum: f32 = places.map(|place| behind_samples(pixels, width, index(place))).sum();
+            self.blocks[i].hidden = sum / part.area() as f32;
+        }
     }
 
     /// The blocks that are to be doubled next; none when the tile is good enough.
@@ -250,6 +265,7 @@ impl<S: Shape, L: Emitter, M: Material, E: super::Estimator, Q: Sequence + Clone
             }
             taken += u64::from(block.pixels) * u64::from(end - samples);
         }
+        tile.look_for_hidden(pixels);
         taken
     }
 }

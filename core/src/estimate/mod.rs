@@ -7,6 +7,7 @@ mod convergence;
 mod direct;
 mod gather;
 mod heuristic;
+mod hidden;
 mod job;
 mod layers;
 mod observer;
