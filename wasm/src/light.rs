@@ -141,7 +141,7 @@ fn axes(before: Option<&AnyShape>, direction: Vec3) -> (Vec3, Vec3) {
         // The part of the old axis in the new plane, after the turn that takes normal to direction.
         let half = (normal + direction).try_normalize()?;
         let mirrored = u - half * (2.0 * u.dot(half));
-        (mirrored - direction * mirrored.dot(direction)).try_normalize().map(|u| -u)
+        (mirrored - direction * mirrored.dot(direction)).try_normalize()
     });
     let u = kept.unwrap_or_else(|| Frame::from_normal(direction).to_world(Vec3::X));
     (u, direction.cross(u))
