@@ -172,7 +172,7 @@ impl Scene {
     }
 
     /// Adds samples `first..last` to the pixels of a tile; returns the sum of weighted squared differences
-    /// and their number, for [`Progress`].
+    /// and their number, for [`crate::Progress`].
     ///
     /// * `pixels` – eight words each, 0 before the first sample: mean and sum of squared deviations of
     ///   red, green and blue as floats, samples, rejected samples
