@@ -1,7 +1,7 @@
-//! BSDFs have the values of Mitsuba 3, to the digit.
+//! BSDFs have the values of Mitsuba 3, to the digit, or of the text that they are from.
 
 use halflight::Rgb;
-use halflight::bsdf::{Bsdf, GgxConductor, RoughPlastic};
+use halflight::bsdf::{Bsdf, GgxConductor, MetallicRoughness, RoughPlastic};
 use halflight::glam::Vec3;
 use std::f64::consts::PI;
 
@@ -53,6 +53,36 @@ fn stretched_metal_is_that_of_mitsuba() {
     let gold = GgxConductor::anisotropic(Rgb::splat(0.7), [0.9, 0.2]).unwrap();
     let gold = gold.with_index(Rgb::new(0.143, 0.375, 1.442), Rgb::new(3.983, 2.386, 1.603)).unwrap();
     assert_same(&gold, &GOLD, 1e-4, "gold");
+}
+
+/// Appendix B of the glTF 2.0 specification as it stands, in one channel, in double precision.
+fn gltf_appendix([wo, wi]: [Vec3; 2], base: f64, metallic: f64, roughness: f64) -> f64 {
+    let ([v, l], alpha) = ([wo, wi].map(|w| w.as_dvec3().normalize()), roughness * roughness);
+    let h = (v + l).normalize();
+    let (nv, nl, nh, vh) = (v.z, l.z, h.z, v.dot(h));
+    let lambda = |c: f64| c + (alpha * alpha + (1.0 - alpha * alpha) * c * c).sqrt();
+    let d = alpha * alpha / (PI * (nh * nh * (alpha * alpha - 1.0) + 1.0).powi(2));
+    let specular = d / (lambda(nv) * lambda(nl));
+    let schlick = |f0: f64| f0 + (1.0 - f0) * (1.0 - vh).powi(5);
+    let dielectric = base / PI * (1.0 - schlick(0.04)) + specular * schlick(0.04);
+    (1.0 - metallic) * dielectric + metallic * specular * schlick(base)
+}
+
+/// Its matte base is the appendix's in mirror directions only, its facets are everywhere.
+#[test]
+fn metallic_roughness_is_that_of_the_specification() {
+    for roughness in [0.2_f32, 0.5, 1.0] {
+        for metallic in [0.0, 0.3, 1.0_f32] {
+            for (index, directions) in DIRECTIONS.map(|d| d.map(direction)).into_iter().enumerate() {
+                let mirror = |w: Vec3| Vec3::new(-w.x, -w.y, w.z);
+                let pair = if metallic == 1.0 { directions } else { [directions[0], mirror(directions[0])] };
+                let bsdf = MetallicRoughness::new(Rgb::splat(0.7), metallic, roughness).unwrap();
+                let expected = gltf_appendix(pair, 0.7, metallic.into(), roughness.into());
+                let error = f64::from(bsdf.eval(pair[0], pair[1]).g) / expected - 1.0;
+                assert!(error.abs() < 2e-5, "{roughness} {metallic} {index}: {error}");
+            }
+        }
+    }
 }
 
 /// Roughness, index of refraction, whether colours shift.

@@ -1,7 +1,7 @@
 //! Each BSDF passes each check.
 
 use halflight::Rgb;
-use halflight::bsdf::{Bsdf, GgxConductor, Lambert, Phong, RoughPlastic, TwoSided};
+use halflight::bsdf::{Bsdf, GgxConductor, Lambert, MetallicRoughness, Phong, RoughPlastic, TwoSided};
 use halflight::glam::Vec3;
 use halflight_tests::bsdfs::{self, COSINES, Lying, furnace, outgoing};
 use halflight_tests::quadrature::integrate;
@@ -74,6 +74,10 @@ fn plastic(alpha: f32, eta: f32, diffuse: f32) -> RoughPlastic {
     RoughPlastic::new(alpha, eta).unwrap().with_diffuse(Rgb::splat(diffuse)).unwrap()
 }
 
+fn gltf(base_color: f32, metallic: f32, roughness: f32) -> MetallicRoughness {
+    MetallicRoughness::new(Rgb::splat(base_color), metallic, roughness).unwrap()
+}
+
 conformance!(lambert_grey, lambert());
 conformance!(phong_flat, phong(0.3, 0.5, 0.0));
 conformance!(phong_broad, phong(0.2, 0.8, 12.0));
@@ -94,6 +98,13 @@ conformance!(plastic_black, plastic(0.3, 2.0, 0.0));
 conformance!(plastic_without_boundary, plastic(0.3, 1.0, 1.0));
 conformance!(plastic_narrow, plastic(0.01, 1.33, 0.2), cone: 2e-3);
 conformance!(plastic_needle, plastic(1e-4, 2.4, 1.0), cone: 2e-7);
+conformance!(gltf_rough, gltf(1.0, 0.0, 1.0));
+conformance!(gltf_broad, gltf(1.0, 0.0, 0.5));
+conformance!(gltf_half_a_metal, gltf(0.8, 0.5, 0.6));
+conformance!(gltf_metal, gltf(0.9, 1.0, 0.6));
+conformance!(gltf_black_metal, gltf(0.0, 1.0, 0.5));
+conformance!(gltf_narrow, gltf(1.0, 0.1, 0.1), cone: 2e-3);
+conformance!(gltf_needle, gltf(1.0, 0.0, 0.0), cone: 2e-7);
 
 #[test]
 fn lambert_reflects_its_reflectance_from_everywhere() -> Verdict {
@@ -159,6 +170,17 @@ fn facets_that_reflect_hardly_anything_are_still_sampled() {
 }
 
 #[test]
+fn no_roughness_lets_the_coat_of_gltf_and_its_base_reflect_more_than_arrives() {
+    for roughness in [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0] {
+        for cosine in [1.0, 0.9, 0.7, 0.5, 0.45, 0.4, 0.3, 0.2, 0.1, 0.03, 1e-2, 1e-3] {
+            let own = furnace(&gltf(1.0, 0.0, roughness), outgoing(cosine));
+            let bound = 1.0 + 5.0 * own.standard_error();
+            assert!(own.mean() <= bound, "{roughness} {cosine}: {}", own.mean());
+        }
+    }
+}
+
+#[test]
 fn a_smooth_metal_reflects_everything() -> Verdict {
     // With masking but no second bounce, what is lost goes to 0 with the roughness.
     furnace(&ggx(1e-3), outgoing(0.8)).check_mean("albedo", 1.0, 1e-4)
@@ -207,5 +229,7 @@ mod two_percent_are_noticed {
         assert!(bsdfs::directions_pass_chi_square(&metal, 2.0).is_err());
         let coated = Lying { bsdf: plastic(0.3, 1.49, 0.7), sampled: 1.0, queried: 1.02 };
         assert!(bsdfs::directions_pass_chi_square(&coated, 2.0).is_err());
+        let between = Lying { bsdf: gltf(0.8, 0.5, 0.6), sampled: 1.0, queried: 1.02 };
+        assert!(bsdfs::directions_pass_chi_square(&between, 2.0).is_err());
     }
 }

@@ -94,6 +94,7 @@ fn bsdf_kind(material: &AnyMaterial<'_>) -> &'static str {
         AnyBsdf::Phong(_) => "phong",
         AnyBsdf::GgxConductor(_) => "roughconductor",
         AnyBsdf::RoughPlastic(_) => "roughplastic",
+        AnyBsdf::MetallicRoughness(_) => "metallic-roughness",
     }
 }
 

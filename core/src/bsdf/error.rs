@@ -19,6 +19,13 @@ pub enum BsdfError {
         /// Their sum.
         sum: Rgb,
     },
+    /// A share is outside `[0, 1]`, or not a number.
+    Share {
+        /// Of what.
+        field: &'static str,
+        /// Its value.
+        value: f32,
+    },
     /// The exponent is negative or not finite.
     Exponent(f32),
     /// The roughness is outside what the model supports.
@@ -49,6 +56,7 @@ impl fmt::Display for BsdfError {
                 f,
                 "diffuse and specular reflectance together are ({r}, {g}, {b}); they must not exceed 1"
             ),
+            Self::Share { field, value } => write!(f, "{field} is {value}; it must be between 0 and 1"),
             Self::Exponent(value) => write!(f, "the exponent is {value}; it must be 0 or more"),
             Self::Roughness(value) => {
                 write!(f, "the roughness is {value}; it must be between 1e-4 and 1")

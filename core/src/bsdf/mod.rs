@@ -8,6 +8,7 @@ mod error;
 mod fresnel;
 mod ggx;
 mod lambert;
+mod metallic_roughness;
 mod microfacet;
 mod phong;
 mod rough_plastic;
@@ -17,6 +18,7 @@ mod two_sided;
 pub use error::BsdfError;
 pub use ggx::GgxConductor;
 pub use lambert::Lambert;
+pub use metallic_roughness::MetallicRoughness;
 pub use phong::Phong;
 pub use rough_plastic::RoughPlastic;
 pub use two_sided::TwoSided;
@@ -89,6 +91,8 @@ pub enum AnyBsdf {
     GgxConductor(GgxConductor),
     /// Matte under a rough coat.
     RoughPlastic(RoughPlastic),
+    /// That of glTF.
+    MetallicRoughness(MetallicRoughness),
 }
 
 /// The only list of variants; every method goes through it.
@@ -99,6 +103,7 @@ macro_rules! each_bsdf {
             AnyBsdf::Phong($inner) => $body,
             AnyBsdf::GgxConductor($inner) => $body,
             AnyBsdf::RoughPlastic($inner) => $body,
+            AnyBsdf::MetallicRoughness($inner) => $body,
         }
     };
 }
@@ -131,6 +136,10 @@ impl Bsdf for AnyBsdf {
     #[inline]
     fn needs_tangent(&self) -> bool {
         each_bsdf!(self, b => b.needs_tangent())
+    }
+
+    fn is_black(&self) -> bool {
+        each_bsdf!(self, b => b.is_black())
     }
 
     fn check(&self) -> Result<(), BsdfError> {

@@ -73,11 +73,12 @@ impl TextureDescription {
 /// The textures of one side of a material; `None` leaves the value of the BSDF.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MaterialTextures {
-    /// Diffuse reflectance.
+    /// Diffuse reflectance; of a [`crate::bsdf::MetallicRoughness`] the factor on its base colour.
     pub diffuse: Option<TextureDescription>,
     /// Specular reflectance.
     pub specular: Option<TextureDescription>,
-    /// Roughness, as the luminance of the texture.
+    /// Roughness, as the luminance of the texture; of a [`crate::bsdf::MetallicRoughness`] the factor on
+    /// its roughness, in green, and on its metalness, in blue.
     pub roughness: Option<TextureDescription>,
     /// What reflectances from textures are multiplied with.
     pub scale: f32,

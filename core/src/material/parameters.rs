@@ -1,18 +1,20 @@
 //! Parameters of BSDFs that may differ from place to place.
 
 use crate::Rgb;
-use crate::bsdf::{AnyBsdf, Bsdf, GgxConductor, Lambert, Phong, RoughPlastic};
+use crate::bsdf::{AnyBsdf, Bsdf, GgxConductor, Lambert, MetallicRoughness, Phong, RoughPlastic};
 use crate::num;
 
 /// What textures say about a place; `None` leaves the BSDF's own value.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Parameters {
-    /// Diffuse reflectance, each channel in `[0, 1]`.
+    /// Diffuse reflectance, each channel in `[0, 1]`; of a [`MetallicRoughness`] the factor on its base
+    /// colour.
     pub diffuse: Option<Rgb>,
     /// Specular reflectance, each channel in `[0, 1]`.
     pub specular: Option<Rgb>,
-    /// Roughness `α`.
-    pub roughness: Option<f32>,
+    /// Roughness `α` as a luminance; of a [`MetallicRoughness`] the factors on its roughness, in green, and
+    /// on its metalness, in blue.
+    pub roughness: Option<Rgb>,
 }
 
 /// A BSDF whose parameters can be given place by place.
@@ -62,14 +64,15 @@ impl Parametric for Phong {
 impl Parametric for GgxConductor {
     #[inline]
     fn with_parameters(&self, parameters: &Parameters) -> Self {
-        let alpha = parameters.roughness.map(|a| [num::clamp(a, Self::MIN_ALPHA, 1.0); 2]);
+        let alpha = parameters.roughness.map(|a| [num::clamp(a.luminance(), Self::MIN_ALPHA, 1.0); 2]);
         self.with_reflectance(parameters.specular.unwrap_or(self.reflectance()))
             .and_then(|bsdf| bsdf.with_alpha(alpha.unwrap_or(self.alpha())))
             .unwrap_or(*self)
     }
 
     fn parameters(&self) -> Parameters {
-        Parameters { diffuse: None, specular: Some(self.reflectance()), roughness: Some(self.alpha()[0]) }
+        let roughness = Some(Rgb::splat(self.alpha()[0]));
+        Parameters { diffuse: None, specular: Some(self.reflectance()), roughness }
     }
 }
 
@@ -86,6 +89,21 @@ impl Parametric for RoughPlastic {
     }
 }
 
+impl Parametric for MetallicRoughness {
+    #[inline]
+    fn with_parameters(&self, parameters: &Parameters) -> Self {
+        let base_color = self.base_color() * parameters.diffuse.unwrap_or(Rgb::WHITE);
+        let Rgb { g, b, .. } = parameters.roughness.unwrap_or(Rgb::WHITE);
+        let share = |own: f32, factor: f32| num::clamp(own * factor, 0.0, 1.0);
+        Self::new(base_color, share(self.metallic(), b), share(self.roughness(), g)).unwrap_or(*self)
+    }
+
+    /// Factors of 1.
+    fn parameters(&self) -> Parameters {
+        Parameters { diffuse: Some(Rgb::WHITE), specular: None, roughness: Some(Rgb::WHITE) }
+    }
+}
+
 impl Parametric for AnyBsdf {
     #[inline]
     fn with_parameters(&self, parameters: &Parameters) -> Self {
@@ -94,6 +112,7 @@ impl Parametric for AnyBsdf {
             Self::Phong(b) => Self::Phong(b.with_parameters(parameters)),
             Self::GgxConductor(b) => Self::GgxConductor(b.with_parameters(parameters)),
             Self::RoughPlastic(b) => Self::RoughPlastic(b.with_parameters(parameters)),
+            Self::MetallicRoughness(b) => Self::MetallicRoughness(b.with_parameters(parameters)),
         }
     }
 
@@ -103,6 +122,7 @@ impl Parametric for AnyBsdf {
             Self::Phong(b) => b.parameters(),
             Self::GgxConductor(b) => b.parameters(),
             Self::RoughPlastic(b) => b.parameters(),
+            Self::MetallicRoughness(b) => b.parameters(),
         }
     }
 

@@ -9,11 +9,12 @@ use glam::Vec2;
 /// The textures that give a BSDF its parameters; `None` leaves the BSDF's own value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ParameterTextures<'a> {
-    /// Diffuse reflectance.
+    /// Diffuse reflectance; of a [`crate::bsdf::MetallicRoughness`] the factor on its base colour.
     pub diffuse: Option<Texture<'a>>,
     /// Specular reflectance.
     pub specular: Option<Texture<'a>>,
-    /// Roughness, as the luminance of the texture.
+    /// Roughness, as the luminance of the texture; of a [`crate::bsdf::MetallicRoughness`] the factor on
+    /// its roughness, in green, and on its metalness, in blue.
     pub roughness: Option<Texture<'a>>,
     /// What reflectances from textures are multiplied with.
     pub scale: f32,
@@ -93,7 +94,7 @@ impl<B: Parametric> Material for Textured<'_, B> {
         self.base.with_parameters(&Parameters {
             diffuse: textures.diffuse.map(reflectance),
             specular: textures.specular.map(reflectance),
-            roughness: textures.roughness.map(|t| t.at(uv).luminance()),
+            roughness: textures.roughness.map(|t| t.at(uv)),
         })
     }
 

@@ -3,7 +3,7 @@
 
 #[allow(unused_imports)]
 use halflight::{
-    bsdf::{AnyBsdf, GgxConductor, Lambert, Phong, RoughPlastic, TwoSided},
+    bsdf::{AnyBsdf, GgxConductor, Lambert, MetallicRoughness, Phong, RoughPlastic, TwoSided},
     bvh::{Child, Node},
     camera::View,
     film::Filter,

@@ -5,6 +5,7 @@
 //! not have: surfaces that emit from both sides, and the Phong model. Those are written in the
 //! spelling that this crate reads, with a remark.
 
+mod bsdf;
 mod error;
 mod file;
 mod names;
@@ -87,11 +88,11 @@ fn materials(
         .map(|material| {
             let mut inner = Xml::nested();
             if material.name.is_empty() {
-                parts::bsdf(&mut inner, pictures, material, None)?;
+                bsdf::write(&mut inner, pictures, material, None)?;
                 return Ok(inner.into_body());
             }
             let id = ids.unique(&names::id(&material.name));
-            parts::bsdf(xml, pictures, material, Some(&id))?;
+            bsdf::write(xml, pictures, material, Some(&id))?;
             inner.empty("ref", &[("id", &id)]);
             Ok(inner.into_body())
         })

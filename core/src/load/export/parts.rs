@@ -3,18 +3,16 @@
 use super::textures::Pictures;
 use super::xml::Xml;
 use super::{ExportError, digits};
-use crate::Rgb;
-use crate::bsdf::{AnyBsdf, GgxConductor, RoughPlastic, TwoSided};
 use crate::build::{
     CameraDescription, Description, Emission, EnvironmentDescription, FovAxis, Geometry,
-    IntegratorDescription, Material, MaterialTextures, ProjectionDescription, TextureDescription,
+    IntegratorDescription, ProjectionDescription,
 };
 use crate::camera::View;
 use crate::film::Filter;
 use crate::geom::Frame;
 use crate::light::{AnyLight, Emitter, Portal, Spot};
 use crate::shape::AnyShape;
-use crate::texture::{Kind, ObjectSpace, Pattern};
+use crate::texture::ObjectSpace;
 use glam::{DMat3, DVec3, Vec3};
 use std::format;
 
@@ -109,101 +107,6 @@ fn film(xml: &mut Xml, description: &Description) {
         xml.close("rfilter");
     }
     xml.close("film");
-}
-
-pub(super) fn bsdf(
-    xml: &mut Xml,
-    pictures: &mut Pictures<'_>,
-    material: &Material,
-    id: Option<&str>,
-) -> Result<(), ExportError> {
-    let (TwoSided { front, back }, textures) = (&material.bsdf, &material.textures);
-    let Some(back) = back else { return one_sided(xml, pictures, front, &textures[0], id) };
-    xml.open_plugin("bsdf", "twosided", id);
-    one_sided(xml, pictures, front, &textures[0], None)?;
-    if back != front || textures[0] != textures[1] {
-        one_sided(xml, pictures, back, &textures[1], None)?;
-    }
-    xml.close("bsdf");
-    Ok(())
-}
-
-fn one_sided(
-    xml: &mut Xml,
-    pictures: &mut Pictures<'_>,
-    bsdf: &AnyBsdf,
-    textures: &MaterialTextures,
-    id: Option<&str>,
-) -> Result<(), ExportError> {
-    let scale = Rgb::splat(textures.scale);
-    let diffuse = textures.diffuse.as_ref().map(|t| (t, scale));
-    let specular = textures.specular.as_ref().map(|t| (t, scale));
-    match bsdf {
-        AnyBsdf::Lambert(b) => {
-            xml.open_plugin("bsdf", "diffuse", id);
-            pictures.colour(xml, "reflectance", b.reflectance(), diffuse)?;
-        }
-        AnyBsdf::Phong(b) => {
-            xml.remark("phong is the plugin of Mitsuba 0.6; Mitsuba 3 needs it to be registered");
-            xml.open_plugin("bsdf", "phong", id);
-            pictures.colour(xml, "diffuse_reflectance", b.diffuse(), diffuse)?;
-            pictures.colour(xml, "specular_reflectance", b.specular(), specular)?;
-            xml.float("exponent", b.exponent());
-        }
-        AnyBsdf::GgxConductor(b) => {
-            rough_conductor(xml, b, textures.roughness.is_some(), id);
-            if let Some(roughness) = &textures.roughness {
-                pictures.colour(xml, "alpha", Rgb::BLACK, Some((&for_one_number(roughness), Rgb::WHITE)))?;
-            }
-            pictures.colour(xml, "specular_reflectance", b.reflectance(), specular)?;
-        }
-        AnyBsdf::RoughPlastic(b) => {
-            rough_plastic(xml, b, id);
-            pictures.colour(xml, "diffuse_reflectance", b.diffuse(), diffuse)?;
-            pictures.colour(xml, "specular_reflectance", b.specular(), specular)?;
-        }
-    }
-    xml.close("bsdf");
-    Ok(())
-}
-
-/// Where Mitsuba asks a checkerboard for one number, the colours change places.
-fn for_one_number(texture: &TextureDescription) -> TextureDescription {
-    let mut texture = texture.clone();
-    if let Kind::Checkerboard([a, b]) = texture.pattern.kind() {
-        let swapped = Pattern::from(Kind::Checkerboard([b, a]));
-        texture.pattern = swapped.with_transform(texture.pattern.transform());
-    }
-    texture
-}
-
-fn rough_conductor(xml: &mut Xml, bsdf: &GgxConductor, textured: bool, id: Option<&str>) {
-    xml.open_plugin("bsdf", "roughconductor", id);
-    xml.property("string", "material", "none");
-    xml.property("string", "distribution", "ggx");
-    match bsdf.alpha() {
-        _ if textured => {}
-        [along, across] if along == across => xml.float("alpha", along),
-        [along, across] => {
-            xml.float("alpha_u", along);
-            xml.float("alpha_v", across);
-        }
-    }
-    if let Some((eta, k)) = bsdf.index() {
-        xml.rgb("eta", eta);
-        xml.rgb("k", k);
-    }
-}
-
-fn rough_plastic(xml: &mut Xml, bsdf: &RoughPlastic, id: Option<&str>) {
-    xml.open_plugin("bsdf", "roughplastic", id);
-    xml.property("string", "distribution", "ggx");
-    xml.float("alpha", bsdf.alpha());
-    xml.float("int_ior", bsdf.eta());
-    xml.float("ext_ior", 1.0);
-    if bsdf.is_nonlinear() {
-        xml.property("boolean", "nonlinear", "true");
-    }
 }
 
 pub(super) fn shape_kind(geometry: &Geometry) -> &'static str {

@@ -128,7 +128,7 @@ fn item(out: &mut String, about: &str, name: &str, kind: &str, entries: Vec<Stri
 const IMPORTS: &str = "\
 #[allow(unused_imports)]
 use halflight::{
-    bsdf::{AnyBsdf, GgxConductor, Lambert, Phong, RoughPlastic, TwoSided},
+    bsdf::{AnyBsdf, GgxConductor, Lambert, MetallicRoughness, Phong, RoughPlastic, TwoSided},
     bvh::{Child, Node},
     camera::View,
     film::Filter,

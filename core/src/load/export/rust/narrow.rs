@@ -183,6 +183,7 @@ fn bsdf_name(bsdf: &AnyBsdf) -> &'static str {
         AnyBsdf::Phong(_) => "Phong",
         AnyBsdf::GgxConductor(_) => "GgxConductor",
         AnyBsdf::RoughPlastic(_) => "RoughPlastic",
+        AnyBsdf::MetallicRoughness(_) => "MetallicRoughness",
     }
 }
 
@@ -201,5 +202,9 @@ fn bsdf_expression(bsdf: &AnyBsdf) -> String {
             format!("GgxConductor::baked({}, [{}], {index})", rgb(b.reflectance()), list(&b.alpha()))
         }
         AnyBsdf::RoughPlastic(b) => format!("RoughPlastic::baked([{}])", list(&b.to_numbers())),
+        AnyBsdf::MetallicRoughness(b) => {
+            let numbers = list(&[b.metallic(), b.roughness()]);
+            format!("MetallicRoughness::baked({}, {numbers})", rgb(b.base_color()))
+        }
     }
 }
