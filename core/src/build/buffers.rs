@@ -1,6 +1,6 @@
 //! The tables of a scene, owned.
 
-use super::painted::PaintedBuffer;
+use super::painted::{Emitted, PaintedBuffer};
 use super::primitives::{Primitive, list};
 use super::{
     BoundScene, BuildError, Description, EnvironmentDescription, EnvironmentTables, LightTreeBuffers,
@@ -118,13 +118,20 @@ impl SceneBuffers {
         let (around, mut lights): (Vec<_>, Vec<_>) =
             description.lights.iter().partition::<Vec<AnyLight<'static>>, _>(|l| l.is_environment());
         let mut light_of = vec![NONE; primitives.len()];
+        // Primitives of one object follow one another.
+        let mut picture = (u32::MAX, None);
         for (primitive, light) in primitives.iter().zip(&mut light_of) {
             let object = &description.objects[primitive.object as usize];
-            let Some(emission) = &object.emission else { continue };
+            if object.emission.is_none() {
+                continue;
+            }
             let Some(shape) = primitive.shape(description) else { continue };
-            if emission.texture.is_some() {
+            if picture.0 != primitive.object {
+                picture = (primitive.object, Emitted::new(object)?);
+            }
+            if let Some(emitted) = &picture.1 {
                 let uvs = primitive.surface_uvs(description);
-                let Some(painted) = PaintedBuffer::new(lights.len(), object, shape, uvs)? else { continue };
+                let Some(painted) = PaintedBuffer::new(lights.len(), emitted, shape, uvs)? else { continue };
                 self.painted.push(painted);
             }
             // Of a light with a picture this keeps the place only.

@@ -1,12 +1,12 @@
 //! Surfaces that emit a picture, owned.
 
-use super::{BuildError, Object, TexelBuffer};
+use super::{BuildError, Emission, Object, TexelBuffer, TextureDescription};
 use crate::Rgb;
 use crate::light::{
     AnyLight, AreaLight, LuminanceGrid, Paint, Painted, PaintedLight, PaintedRectangle, SampledShape,
 };
 use crate::shape::AnyShape;
-use crate::texture::{SurfaceUvs, Texels};
+use crate::texture::{SurfaceUvs, Texels, Texture};
 use core::mem::size_of_val;
 use std::sync::Arc;
 use std::vec;
@@ -24,33 +24,54 @@ pub(super) struct PaintedBuffer {
     luminance: Option<(LuminanceGrid, Vec<f32>)>,
 }
 
+/// The picture of an object that emits it, looked at once for all of its surfaces.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Emitted<'d> {
+    object: &'d Object,
+    emission: &'d Emission,
+    description: &'d TextureDescription,
+    texture: Texture<'d>,
+    /// The largest value of each channel, and the mean.
+    survey: [Rgb; 2],
+}
+
+impl<'d> Emitted<'d> {
+    /// The picture that an object emits; `None` when it emits none.
+    pub(super) fn new(object: &'d Object) -> Result<Option<Self>, BuildError> {
+        let Some(emission) = &object.emission else { return Ok(None) };
+        let Some(description) = &emission.texture else { return Ok(None) };
+        let refused = |source| BuildError::Texture { of: object.name.clone(), source };
+        let texture = description.texture().map_err(refused)?;
+        let survey = [texture.largest(), texture.mean()];
+        Ok(Some(Self { object, emission, description, texture, survey }))
+    }
+}
+
 impl PaintedBuffer {
     /// The light that a shape with a picture is; `None` when it is black.
     pub(super) fn new(
         light: usize,
-        object: &Object,
+        emitted: &Emitted<'_>,
         shape: AnyShape,
         uvs: SurfaceUvs,
     ) -> Result<Option<Self>, BuildError> {
-        let Some(emission) = &object.emission else { return Ok(None) };
-        let Some(description) = &emission.texture else { return Ok(None) };
-        let of = || object.name.clone();
-        let texture = description.texture().map_err(|source| BuildError::Texture { of: of(), source })?;
+        let Emitted { object, emission, description, texture, survey } = *emitted;
         let factor = emission.radiance;
         let paint = match shape {
-            AnyShape::Triangle(s) => Paint::new(&s, &texture, uvs, factor),
-            AnyShape::Rectangle(s) => Paint::new(&s, &texture, uvs, factor),
-            AnyShape::Disk(s) => Paint::new(&s, &texture, uvs, factor),
-            AnyShape::Sphere(s) => Paint::new(&s, &texture, uvs, factor),
-            AnyShape::Cylinder(s) => Paint::new(&s, &texture, uvs, factor),
+            AnyShape::Triangle(s) => Paint::surveyed(&s, &texture, uvs, factor, survey),
+            AnyShape::Rectangle(s) => Paint::surveyed(&s, &texture, uvs, factor, survey),
+            AnyShape::Disk(s) => Paint::surveyed(&s, &texture, uvs, factor, survey),
+            AnyShape::Sphere(s) => Paint::surveyed(&s, &texture, uvs, factor, survey),
+            AnyShape::Cylinder(s) => Paint::surveyed(&s, &texture, uvs, factor, survey),
         }
-        .map_err(|source| BuildError::Light { object: of(), source })?;
-        if (texture.largest() * factor).is_black() {
+        .map_err(|source| BuildError::Light { object: object.name.clone(), source })?;
+        let [largest, mean] = survey;
+        if (largest * factor).is_black() {
             return Ok(None);
         }
         let (two_sided, texels) = (emission.two_sided, description.texels.clone());
         let mut buffer = Self { light, shape, two_sided, paint, texels, luminance: None };
-        buffer.measure(texture.mean() * factor);
+        buffer.measure(mean * factor);
         Ok(Some(buffer))
     }
 

@@ -68,15 +68,32 @@ impl Paint {
         uvs: SurfaceUvs,
         factor: Rgb,
     ) -> Result<Self, LightError> {
+        Self::surveyed(shape, texture, uvs, factor, [texture.largest(), texture.mean()])
+    }
+
+    /// The same as [`Paint::new`] without looking at all texels, for many shapes with one texture.
+    ///
+    /// * `survey` – the texture's [`Texture::largest`] and [`Texture::mean`]
+    ///
+    /// # Errors
+    /// As [`Paint::new`].
+    pub fn surveyed(
+        shape: &impl SampledShape,
+        texture: &Texture<'_>,
+        uvs: SurfaceUvs,
+        factor: Rgb,
+        survey: [Rgb; 2],
+    ) -> Result<Self, LightError> {
+        let [largest, mean] = survey;
         super::error::check_emission("the radiance", factor)?;
-        super::error::check_emission("the radiance", texture.largest() * factor)?;
+        super::error::check_emission("the radiance", largest * factor)?;
         let step = 1.0 / LOOKS as f32;
         let mut sum = Rgb::BLACK;
         for i in 0..LOOKS * LOOKS {
             let u = [((i / LOOKS) as f32 + 0.5) * step, ((i % LOOKS) as f32 + 0.5) * step];
             sum += texture.at(uvs.at(shape, shape.sample_area(u).point)) * (step * step);
         }
-        let whole = texture.mean() * LEAST_SHARE;
+        let whole = mean * LEAST_SHARE;
         let mean = Rgb::new(sum.r.max(whole.r), sum.g.max(whole.g), sum.b.max(whole.b)) * factor;
         Ok(Self { pattern: *texture.pattern(), uvs, factor, mean })
     }
