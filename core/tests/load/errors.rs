@@ -9,7 +9,7 @@ fn an_unknown_plugin_is_named_with_its_place_and_the_nearest_known_one() {
     assert_eq!(
         message,
         "scene.xml:3: <bsdf type=\"difuse\">: unknown bsdf \"difuse\"; did you mean \"diffuse\"? \
-         supported: diffuse, phong, roughconductor, roughplastic, twosided"
+         supported: diffuse, phong, principled, roughconductor, roughplastic, twosided"
     );
 }
 

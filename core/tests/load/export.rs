@@ -26,6 +26,8 @@ const EVERYTHING: &str = "\
 <float name=\"alpha_v\" value=\".07\"/><rgb name=\"eta\" value=\".2 .9 1.1\"/><rgb name=\"k\" value=\"3.9 2.4 2.2\"/></bsdf>\
 <bsdf type=\"roughplastic\" id=\"plastic\"><string name=\"distribution\" value=\"ggx\"/><string name=\"int_ior\" value=\"bk7\"/>\
 <rgb name=\"diffuse_reflectance\" value=\".1 .2 .3\"/><boolean name=\"nonlinear\" value=\"true\"/></bsdf>\
+<bsdf type=\"principled\" id=\"shop\"><rgb name=\"base_color\" value=\".1 .7 .3\"/><float name=\"metallic\" value=\".3\"/>\
+<float name=\"roughness\" value=\".4\"/></bsdf>\
 <shape type=\"rectangle\" id=\"floor\"><ref id=\"metal\"/><transform name=\"to_world\"><rotate x=\".8\" y=\".6\" angle=\"-77\"/>\
 <scale value=\"12.1\"/><translate x=\".3\"/></transform></shape>\
 <shape type=\"rectangle\"><boolean name=\"flip_normals\" value=\"true\"/><bsdf type=\"twosided\"><bsdf type=\"diffuse\"/></bsdf></shape>\

@@ -2,8 +2,8 @@
 //! source, for programs without files.
 //!
 //! The XML that is written loads in Mitsuba, and loads here to the same scene, except for what Mitsuba does
-//! not have: surfaces that emit from both sides, and the Phong model. Those are written in the
-//! spelling that this crate reads, with a remark.
+//! not have: surfaces that emit from both sides, the Phong model, and the metallic-roughness model of glTF.
+//! Those are written in the spelling that this crate reads, with a remark.
 
 mod bsdf;
 mod error;

@@ -6,15 +6,15 @@ use super::ior;
 use super::properties::Properties;
 use super::texture;
 use crate::Rgb;
-use crate::bsdf::{AnyBsdf, GgxConductor, Lambert, Phong, RoughPlastic, TwoSided};
+use crate::bsdf::{AnyBsdf, GgxConductor, Lambert, MetallicRoughness, Phong, RoughPlastic, TwoSided};
 use crate::build::{Material, MaterialTextures, TextureDescription};
 use crate::load::{LoadError, Problem};
 use std::borrow::ToOwned;
 use std::format;
 use std::string::String;
 
-const NAMES: [&str; 5] = ["diffuse", "phong", "roughconductor", "roughplastic", "twosided"];
-const ONE_SIDED: [&str; 4] = ["diffuse", "phong", "roughconductor", "roughplastic"];
+const NAMES: [&str; 6] = ["diffuse", "phong", "principled", "roughconductor", "roughplastic", "twosided"];
+const ONE_SIDED: [&str; 5] = ["diffuse", "phong", "principled", "roughconductor", "roughplastic"];
 
 /// The smoothest surface that is kept as written.
 const MIN_ALPHA: f64 = 1e-4;
@@ -71,6 +71,7 @@ fn one_sided(context: &mut Context<'_>, element: &Element) -> Result<Side, LoadE
             (AnyBsdf::Lambert(bsdf), MaterialTextures { diffuse, ..MaterialTextures::default() })
         }
         "phong" => phong(context, element, &mut properties)?,
+        "principled" => principled(context, element, &mut properties)?,
         "roughconductor" => rough_conductor(context, element, &mut properties)?,
         _ => rough_plastic(context, element, &mut properties)?,
     };
@@ -101,6 +102,34 @@ fn phong(
     }
     let bsdf = Phong::new(kd, ks, exponent).map_err(|e| element.error(e))?;
     Ok((AnyBsdf::Phong(bsdf), MaterialTextures { diffuse, specular, roughness: None, scale }))
+}
+
+/// The part of `principled` that glTF has, in its model.
+fn principled(
+    context: &mut Context<'_>,
+    element: &Element,
+    properties: &mut Properties<'_>,
+) -> Result<Side, LoadError> {
+    let (mut base, diffuse) = texture::reflectance(context, properties, "base_color", 0.5)?;
+    let (roughness, rough) = texture::share(context, properties, "roughness", 0.5)?;
+    let (metallic, metal) = texture::share(context, properties, "metallic", 0.0)?;
+    let eta = properties.float_or("eta", 1.5)?;
+    if properties.float_or("specular", 0.5)? != 0.5 || eta != 1.5 {
+        let what = "another index of refraction than 1.5".to_owned();
+        return Err(
+            element.error(Problem::NotSupported { what, instead: "leave \"specular\" and \"eta\" out" })
+        );
+    }
+    if diffuse.is_some() {
+        // Textures are factors.
+        base = Rgb::WHITE;
+    }
+    context.warn(element, "is read as the metallic-roughness model of glTF, whose matte base is darker");
+    let bsdf =
+        MetallicRoughness::new(base, metallic as f32, roughness as f32).map_err(|e| element.error(e))?;
+    let roughness = texture::both(rough, metal).map_err(|problem| element.error(problem))?;
+    let textures = MaterialTextures { diffuse, roughness, ..MaterialTextures::default() };
+    Ok((AnyBsdf::MetallicRoughness(bsdf), textures))
 }
 
 fn rough_conductor(

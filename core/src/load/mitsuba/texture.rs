@@ -42,18 +42,64 @@ pub(super) fn roughness(
     name: &'static str,
 ) -> Result<(Option<f64>, Option<TextureDescription>), LoadError> {
     let Some(element) = properties.texture(name)? else { return Ok((properties.float(name)?, None)) };
-    let mut texture = read(context, element)?;
-    // Where Mitsuba asks a checkerboard for one number, the colours change places.
-    if let Kind::Checkerboard([a, b]) = texture.pattern.kind() {
-        let swapped = Pattern::from(Kind::Checkerboard([b, a]));
-        texture.pattern = swapped.with_transform(texture.pattern.transform());
-    }
+    let texture = one_number(context, element)?;
     let looked = texture.texture().map_err(|e| element.error(e))?;
     if looked.smallest().luminance() < GgxConductor::MIN_ALPHA || looked.largest().luminance() > 1.0 {
         context.warn(element, "goes beyond the roughnesses that are supported, 0.0001 to 1, and is clamped");
     }
     let mean = f64::from(looked.mean().luminance().clamp(GgxConductor::MIN_ALPHA, 1.0));
     Ok((Some(mean), Some(texture)))
+}
+
+/// A texture of which one number is taken.
+fn one_number(context: &mut Context<'_>, element: &Element) -> Result<TextureDescription, LoadError> {
+    let mut texture = read(context, element)?;
+    // Where Mitsuba asks a checkerboard for one number, the colours change places.
+    if let Kind::Checkerboard([a, b]) = texture.pattern.kind() {
+        let swapped = Pattern::from(Kind::Checkerboard([b, a]));
+        texture.pattern = swapped.with_transform(texture.pattern.transform());
+    }
+    Ok(texture)
+}
+
+/// A number in `[0, 1]`, 1 when a texture gives it.
+pub(super) fn share(
+    context: &mut Context<'_>,
+    properties: &mut Properties<'_>,
+    name: &'static str,
+    default: f64,
+) -> Result<(f64, Option<TextureDescription>), LoadError> {
+    match properties.texture(name)? {
+        Some(element) => Ok((1.0, Some(one_number(context, element)?))),
+        None => Ok((properties.float_or(name, default)?, None)),
+    }
+}
+
+/// One texture with the numbers of the first in green and those of the second in blue; 1 where there is
+/// none.
+pub(super) fn both(
+    green: Option<TextureDescription>,
+    blue: Option<TextureDescription>,
+) -> Result<Option<TextureDescription>, Problem> {
+    let Some(first) = green.as_ref().or(blue.as_ref()) else { return Ok(None) };
+    let pattern = first.pattern;
+    let same = [&green, &blue].into_iter().flatten().all(|texture| texture.pattern == pattern);
+    let Kind::Picture { width, height, .. } = pattern.kind() else { return Err(apart()) };
+    if !same {
+        return Err(apart());
+    }
+    let number = |texture: &Option<TextureDescription>, i: usize| {
+        let texels = texture.as_ref().and_then(|t| t.texels.as_ref());
+        texels.map_or(1.0, |texels| texels.texels().get(i).luminance())
+    };
+    let of = |i| Rgb::new(0.0, number(&green, i), number(&blue, i));
+    let values = (0..width as usize * height as usize).map(of).collect();
+    Ok(Some(TextureDescription { pattern, texels: Some(Arc::new(TexelBuffer::Float(values))) }))
+}
+
+fn apart() -> Problem {
+    let what = "roughness and metalness from unlike textures".to_owned();
+    Problem::NotSupported { what, instead: "give both as pictures of one size, or as numbers" }
 }
 
 /// A radiance: a factor, and the texture that it is on, if there is one.
