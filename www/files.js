@@ -3,6 +3,7 @@
 import { Pool, compiled } from './engine/pool.js';
 import { el } from './ui/widgets.js';
 
+const SCENES = ['xml', 'gltf', 'glb'];
 const SKIES = ['hdr', 'exr'];
 
 const extension = (name) => name.slice(name.lastIndexOf('.') + 1).toLowerCase();
@@ -29,13 +30,13 @@ async function dropped(items) {
 
 /** What files make: a scene, or a sky for the scene that is shown. */
 export function understood(names) {
-  const scenes = names.filter((name) => extension(name) === 'xml');
+  const scenes = names.filter((name) => SCENES.includes(extension(name)));
   // Of several, the others are included by the one with the shortest path.
   if (scenes.length > 0) return { scene: scenes.sort((a, b) => a.split('/').length - b.split('/').length || a.length - b.length)[0] };
   const sky = names.find((name) => SKIES.includes(extension(name)));
   if (sky && names.length === 1) return { sky };
   const list = names.slice(0, 3).join(', ');
-  throw new Error(`${list}: nothing here that can be shown. Drop a Mitsuba 3 scene (.xml) with its meshes and pictures, or one sky (.hdr, .exr) in longitude and latitude.`);
+  throw new Error(`${list}: nothing here that can be shown. Drop a scene (Mitsuba 3 .xml, glTF 2.0 .gltf or .glb) with its meshes and pictures, or one sky (.hdr, .exr) in longitude and latitude.`);
 }
 
 /** Has files opened by `show(source)`, which says whether it could. */

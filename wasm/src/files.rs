@@ -53,7 +53,7 @@ impl Files {
 
 #[wasm_bindgen]
 impl Scene {
-    /// A scene from files: Mitsuba 3 XML, with its meshes and pictures.
+    /// A scene from files: Mitsuba 3 XML or glTF 2.0, with its meshes and pictures.
     ///
     /// * `path` – of the scene among the files
     ///

@@ -73,6 +73,26 @@ pub enum LoadError {
         /// What is wrong with it.
         problem: Box<Problem>,
     },
+    /// The file is not JSON, or its JSON is not that of a glTF scene.
+    Json {
+        /// The file.
+        path: PathBuf,
+        /// Line, from 1.
+        line: usize,
+        /// Column, from 1.
+        column: usize,
+        /// What is wrong.
+        what: String,
+    },
+    /// A part of a glTF file cannot be understood or used.
+    Item {
+        /// The file.
+        path: PathBuf,
+        /// Which part.
+        item: String,
+        /// What is wrong with it.
+        problem: Box<Problem>,
+    },
     /// There is nothing to see: no shape, and no light around the scene.
     Empty {
         /// The file.
@@ -99,6 +119,11 @@ pub enum Problem {
         what: String,
         /// What to write instead.
         instead: &'static str,
+    },
+    /// A part of a file that breaks the rules of its format.
+    Malformed {
+        /// What is wrong.
+        what: String,
     },
     /// An attribute, property or nested element that must be there.
     Missing {
@@ -206,7 +231,11 @@ impl fmt::Display for LoadError {
         match self {
             Self::Unreadable { path, source } => write!(f, "{}: {source}", path.display()),
             Self::Format { path } => {
-                write!(f, "{}: not a scene file; scenes are read from Mitsuba 3 XML (.xml)", path.display())
+                write!(
+                    f,
+                    "{}: not a scene file; scenes are read from Mitsuba 3 XML (.xml) and glTF 2.0 (.gltf, .glb)",
+                    path.display()
+                )
             }
             Self::Define { name, twice: true } => {
                 write!(f, "the parameter \"{name}\" is given twice; give it once")
@@ -218,10 +247,14 @@ impl fmt::Display for LoadError {
             Self::Syntax { at, what } => {
                 write!(f, "{}:{}:{}: not well-formed XML: {what}", at.file.display(), at.line, at.column)
             }
+            Self::Json { path, line, column, what } => {
+                write!(f, "{}:{line}:{column}: not a glTF scene: {what}", path.display())
+            }
+            Self::Item { path, item, problem } => write!(f, "{}: {item}: {problem}", path.display()),
             Self::Element { at, element, problem } => write!(f, "{at}: {element}: {problem}"),
             Self::Empty { path } => write!(
                 f,
-                "{}: the scene is empty: add a <shape>, or an <emitter type=\"constant\"> to look at",
+                "{}: the scene is empty: it needs a surface, or a light around it to look at",
                 path.display()
             ),
         }
@@ -241,6 +274,7 @@ impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Unknown { what, name, supported } => unknown(f, what, name, supported),
+            Self::Malformed { what } => f.write_str(what),
             Self::NotSupported { what, instead } => write!(f, "{what} is not supported; {instead}"),
             Self::Missing { what } => write!(f, "{what} is missing"),
             Self::Value { attribute, text, expected } => {

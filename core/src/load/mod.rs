@@ -1,13 +1,15 @@
 //! Reads and writes scenes (std).
 //!
-//! Scenes are Mitsuba 3 XML with PLY and OBJ meshes: the part of it that halflight renders. What is
-//! outside of that part is an error that says where it is and what is supported, or, when asked for,
-//! a warning.
+//! Scenes are Mitsuba 3 XML with PLY and OBJ meshes, or glTF 2.0: the part of them that halflight
+//! renders. What is outside of that part is an error that says where it is and what is supported, or, when
+//! asked for, a warning.
 
 pub mod builtin;
 mod error;
 mod export;
 mod files;
+mod framing;
+mod gltf;
 mod image;
 mod mesh;
 mod mesh_error;
@@ -64,6 +66,9 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, LoadError> {
 pub fn load_from(files: &Files, path: &Path, options: &LoadOptions) -> Result<Loaded, LoadError> {
     match path.extension() {
         Some(extension) if extension.eq_ignore_ascii_case("xml") => mitsuba::load(files, path, options),
+        Some(extension) if ["gltf", "glb"].iter().any(|known| extension.eq_ignore_ascii_case(known)) => {
+            gltf::load(files, path, options)
+        }
         _ => Err(LoadError::Format { path: path.into() }),
     }
 }

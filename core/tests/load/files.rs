@@ -33,9 +33,9 @@ fn a_missing_file_and_a_folder_are_named() {
 
 #[test]
 fn other_formats_are_refused_with_what_is_read() {
-    for name in ["a.gltf", "a", "a.xml.gz"] {
+    for name in ["a.fbx", "a", "a.xml.gz"] {
         let error = load(Path::new(name), &LoadOptions::default()).unwrap_err();
-        assert!(error.to_string().contains("Mitsuba 3 XML (.xml)"), "{error}");
+        assert!(error.to_string().contains("glTF 2.0 (.gltf, .glb)"), "{error}");
     }
 }
 

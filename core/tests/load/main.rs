@@ -6,6 +6,8 @@ mod errors;
 mod export;
 mod files;
 mod geometry;
+mod gltf;
+mod gltf_hostile;
 mod portals;
 mod scenes;
 mod textures;

@@ -8,18 +8,10 @@ use super::properties::Properties;
 use super::sensor::Sensor;
 use super::shape::{self, Form};
 use super::{emitter, integrator, sensor};
-use crate::build::{
-    CameraDescription, Description, Emission, EnvironmentDescription, FovAxis, Geometry,
-    IntegratorDescription, Object, ProjectionDescription,
-};
-use crate::camera::View;
-use crate::film::{Film, Filter};
-use crate::geom::Aabb;
+use crate::build::{Description, Emission, EnvironmentDescription, IntegratorDescription, Object};
 use crate::light::{AnyLight, Emitter, Portal};
+use crate::load::framing::{FILM, framing_camera};
 use crate::load::{LoadError, Problem};
-use crate::num;
-use crate::shape::Shape;
-use glam::Vec3;
 use std::borrow::ToOwned;
 use std::path::Path;
 use std::vec::Vec;
@@ -171,25 +163,9 @@ impl<'e> Parts<'e> {
     }
 }
 
-/// A camera in front of the scene and somewhat above it, so far away that a sphere around the scene
-/// fits into the picture.
+/// One that sees the whole scene.
 fn default_sensor(objects: &[Object], root: &Element) -> Result<Sensor, LoadError> {
-    const FOV: f32 = 40.0;
-    let bounds = objects.iter().fold(Aabb::EMPTY, |b, o| {
-        b.union(match &o.geometry {
-            Geometry::Shape(shape) => shape.bounds(),
-            Geometry::Mesh(mesh) => Aabb::around(&mesh.positions),
-        })
-    });
-    let (centre, radius) =
-        if bounds.is_empty() { (Vec3::ZERO, 1.0) } else { (bounds.centre(), 0.5 * bounds.diagonal()) };
-    let distance = radius / num::sin_cos(0.5 * FOV.to_radians()).0;
-    let origin = centre + Vec3::new(0.4, 0.35, 1.0).normalize() * distance;
-    let view = View::look_at(origin, centre, Vec3::Y).map_err(|e| root.error(e))?;
-    let projection = ProjectionDescription::Perspective { fov: FOV, axis: FovAxis::Smaller };
-    let camera =
-        CameraDescription { view, projection, near: 1e-3 * distance, far: 2.0 * (distance + radius) };
-    let film = Film::new(768, 576, Filter::Gaussian { stddev: 0.5 }).map_err(|e| root.error(e))?;
-    camera.camera(film.width(), film.height()).map_err(|e| root.error(e))?;
-    Ok(Sensor { camera, film, samples_per_pixel: None })
+    let camera = framing_camera(objects).map_err(|e| root.error(e))?;
+    camera.camera(FILM.width(), FILM.height()).map_err(|e| root.error(e))?;
+    Ok(Sensor { camera, film: FILM, samples_per_pixel: None })
 }

@@ -7,6 +7,7 @@ use super::value;
 use crate::build::{CameraDescription, FovAxis, ProjectionDescription};
 use crate::camera::View;
 use crate::film::{Film, Filter};
+use crate::load::framing::FILM;
 use crate::load::{LoadError, Problem};
 use glam::{DMat4, DVec3};
 use std::borrow::ToOwned;
@@ -50,7 +51,7 @@ pub(super) fn read(context: &mut Context<'_>, element: &Element) -> Result<Senso
     };
     let film = match properties.single(&["film"])? {
         Some(film) => read_film(context, film)?,
-        None => default_film().map_err(|e| element.error(e))?,
+        None => FILM,
     };
     let samples_per_pixel = match properties.single(&["sampler"])? {
         Some(sampler) => read_sampler(context, sampler)?,
@@ -147,15 +148,11 @@ fn focal_length(at: &Element, text: &str) -> Result<f64, LoadError> {
     length.ok_or_else(|| value::bad(at, "value", "a length above 0, such as 50mm"))
 }
 
-fn default_film() -> Result<Film, crate::film::FilmError> {
-    Film::new(768, 576, Filter::Gaussian { stddev: 0.5 })
-}
-
 fn read_film(context: &mut Context<'_>, element: &Element) -> Result<Film, LoadError> {
     element.plugin("film", &["hdrfilm"])?;
     let mut properties = Properties::new(element)?;
-    let width = properties.count("width")?.unwrap_or(768);
-    let height = properties.count("height")?.unwrap_or(576);
+    let width = properties.count("width")?.unwrap_or(FILM.width());
+    let height = properties.count("height")?.unwrap_or(FILM.height());
     for name in ["crop_offset_x", "crop_offset_y", "crop_width", "crop_height"] {
         if properties.count(name)?.is_some() {
             let what = "a crop window in the file".to_owned();
@@ -166,7 +163,7 @@ fn read_film(context: &mut Context<'_>, element: &Element) -> Result<Film, LoadE
     properties.ignore(&ignored);
     let filter = match properties.single(&["rfilter"])? {
         Some(filter) => read_filter(context, filter)?,
-        None => Filter::Gaussian { stddev: 0.5 },
+        None => FILM.filter(),
     };
     properties.finish(context)?;
     Film::new(width, height, filter).map_err(|e| element.error(e))
