@@ -37,9 +37,11 @@ fn the_error_is_what_was_asked_for() {
             // The noise of the references drops out of this product.
             let product = relmse(&folder, "out.exr", "1001.exr") + relmse(&folder, "out.exr", "1002.exr");
             let ratio = 100.0 / percent * (0.5 * (product - between)).sqrt();
-            assert!((0.5..1.1).contains(&ratio), "{goal}: {ratio} {json}");
+            // Without adaption all pixels are refined at once; the last step may divide the error by √8.
+            let least = if adaptive == "on" { 0.5 } else { 0.35 };
+            assert!((least..1.1).contains(&ratio), "{goal}: {ratio} {json}");
             let estimate = 100.0 / percent * number(&json, "relative_error");
-            assert!((0.5..=1.0 + 1e-6).contains(&estimate), "{goal}: {estimate}");
+            assert!((least..=1.0 + 1e-6).contains(&estimate), "{goal}: {estimate}");
         }
     }
 }
@@ -54,6 +56,22 @@ fn samples_go_where_the_error_is_and_save_some() {
         number(&json["samples_per_pixel"], "mean")
     };
     assert!(mean("on") < 0.7 * mean("off"));
+}
+
+#[test]
+fn more_samples_than_fit_sixteen_bits_go_on_converging() {
+    let folder = Folder::new();
+    let render = |name: &str, seed: u32| {
+        let goal = format!("--error 0.005 --max-spp 1000000 --seed {seed}");
+        let json = folder.good(&format!("render scene.xml -o {name} --width 6 --json {goal}"));
+        let json: Value = serde_json::from_str(&json).unwrap();
+        assert!(number(&json["samples_per_pixel"], "max") > 65_536.0, "{json}");
+    };
+    render("a.exr", 0);
+    render("b.exr", 1);
+    // The two are as far apart as the errors of both, if they are independent.
+    let ratio = (0.5 * relmse(&folder, "a.exr", "b.exr")).sqrt() / 5e-5;
+    assert!((0.3..1.3).contains(&ratio), "{ratio}");
 }
 
 #[test]
