@@ -165,6 +165,22 @@ impl Camera {
             }
         }
     }
+
+    /// Where a point is in the picture, as [`Camera::ray`] takes it: the inverse. `None` for what is not
+    /// in front; clipping is left to the ray.
+    ///
+    /// * `point` – in the world (m)
+    #[must_use]
+    pub fn place(&self, point: Vec3) -> Option<(f32, f32)> {
+        let View { origin, right, up, forward } = self.view;
+        let toward = point - origin;
+        let depth = match self.projection {
+            Projection::Perspective => toward.dot(forward),
+            Projection::Orthographic => 1.0,
+        };
+        let (x, y) = (toward.dot(right) / depth, toward.dot(up) / depth);
+        (depth > 0.0).then_some((x / self.half_width, y / self.half_height))
+    }
 }
 
 /// [`Vec3::is_finite`], for constants.
@@ -188,6 +204,20 @@ mod tests {
         assert_eq!(reach, f32::INFINITY);
         let (ray, _) = Camera::orthographic(view(), 2.0, 1.0).unwrap().ray(-1.0, 0.0);
         assert_eq!(ray, Ray::new(Vec3::new(-2.0, 0.0, 5.0), Vec3::NEG_Z));
+    }
+
+    #[test]
+    fn a_point_of_a_ray_is_where_the_ray_is() {
+        let view = View::look_at(Vec3::new(1.0, 2.0, 5.0), Vec3::ZERO, Vec3::Y).unwrap();
+        let cameras = [Camera::perspective(view, 0.7, 0.5), Camera::orthographic(view, 2.0, 1.0)];
+        for camera in cameras.map(Result::unwrap) {
+            for (x, y) in [(0.0, 0.0), (-1.0, 0.5), (0.9, -0.9)] {
+                let (ray, _) = camera.ray(x, y);
+                let (found_x, found_y) = camera.place(ray.at(3.0)).unwrap();
+                assert!((found_x - x).abs() < 1e-5 && (found_y - y).abs() < 1e-5, "{found_x} {found_y}");
+            }
+        }
+        assert_eq!(Camera::perspective(view, 1.0, 1.0).unwrap().place(Vec3::new(2.0, 4.0, 10.0)), None);
     }
 
     #[test]

@@ -254,6 +254,15 @@ impl Film {
         let down = (y as f32 + 0.5 + dy) / self.height as f32;
         (2.0 * across - 1.0, 1.0 - 2.0 * down)
     }
+
+    /// The pixel that a place in the picture is in, as [`Film::place`] returns it; `None` outside.
+    #[must_use]
+    pub fn pixel(&self, (x, y): (f32, f32)) -> Option<(u32, u32)> {
+        let is_inside = |v: f32| (-1.0..1.0).contains(&v);
+        let column = (0.5 * (x + 1.0) * self.width as f32) as u32;
+        let row = (0.5 * (1.0 - y) * self.height as f32) as u32;
+        (is_inside(x) && is_inside(-y)).then(|| (column.min(self.width - 1), row.min(self.height - 1)))
+    }
 }
 
 #[cfg(test)]
@@ -281,6 +290,17 @@ mod tests {
         assert!(
             (variance(Filter::Gaussian { stddev: 0.5 }) - 0.25 * (1.0 - 8.0 * 1.338_302e-4)).abs() < 2e-5
         );
+    }
+
+    #[test]
+    fn the_middle_of_a_pixel_is_in_it() {
+        let film = Film::new(7, 3, Filter::PIXEL).unwrap();
+        for (x, y) in [(0, 0), (6, 2), (3, 1)] {
+            assert_eq!(film.pixel(film.place(x, y, [0.5, 0.5])), Some((x, y)));
+        }
+        for place in [(1.0, 0.0), (-1.1, 0.0), (0.0, -1.0), (f32::NAN, 0.0)] {
+            assert_eq!(film.pixel(place), None, "{place:?}");
+        }
     }
 
     #[test]
