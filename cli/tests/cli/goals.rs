@@ -1,6 +1,6 @@
 //! Asking for an error or a time.
 
-use crate::support::Folder;
+use crate::support::{Folder, SCENE};
 use serde_json::Value;
 use std::time::Instant;
 
@@ -56,6 +56,28 @@ fn samples_go_where_the_error_is_and_save_some() {
         number(&json["samples_per_pixel"], "mean")
     };
     assert!(mean("on") < 0.7 * mean("off"));
+}
+
+#[test]
+fn a_lamp_much_smaller_than_a_pixel_is_not_missed() {
+    // It covers a hundredth of a pixel, and is all that is to be seen of it.
+    let (place, size) = (
+        "3, 4, 1\"/>\n        <float name=\"radius\" value=\"0.5",
+        "1.2, 1.6, 0\"/>\n        <float name=\"radius\" value=\"0.01",
+    );
+    let scene = SCENE.replace(place, size).replace("20, 20, 20", "50000, 50000, 50000");
+    let folder = Folder::with_scene(&scene);
+    let brightest = |goal: &str| {
+        folder.good(&format!("render scene.xml -o out.exr --quiet {goal}"));
+        let picture = image::open(folder.path("out.exr")).unwrap().to_rgb32f();
+        picture.pixels().map(|p| p.0[0]).fold(0.0, f32::max)
+    };
+    let truth = brightest("--spp 8192");
+    assert!(truth > 100.0, "{truth}");
+    for seed in 0..4 {
+        let found = brightest(&format!("--error 2 --seed {seed}"));
+        assert!((0.5..1.5).contains(&(found / truth)), "{found} {truth}");
+    }
 }
 
 #[test]

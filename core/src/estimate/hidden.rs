@@ -1,6 +1,6 @@
 //! What the samples of a pixel may have missed, as its neighbours tell.
 
-use super::Pixel;
+use super::{Pixel, PixelStats};
 
 /// Expected squared error over `R² + 0.01` of a pixel beside a brighter one, for what hides in it.
 ///
@@ -10,38 +10,44 @@ use super::Pixel;
 /// brighter than what is behind it makes such a pixel as wrong as can be, and no sample tells.
 /// (Derived here; the integral over the share is taken at its middle.)
 ///
-/// * `mean`, `brighter` – of the pixel and of its brightest neighbour (W m⁻² sr⁻¹)
+/// * `mean`, `bright` – of the pixel, and of what is brightest in it as far as it has seen (W m⁻² sr⁻¹)
+/// * `brighter` – what is brightest near it (W m⁻² sr⁻¹)
 /// * `samples` – of the pixel, above 0
 #[inline]
-fn of_pixel(mean: f32, brighter: f32, samples: u32) -> f32 {
+fn of_pixel(mean: f32, bright: f32, brighter: f32, samples: u32) -> f32 {
     let n = samples as f32;
-    let covered = (brighter - mean).max(0.0) / n;
+    let covered = (brighter - bright).max(0.0) / n;
     let truth = mean + 0.5 * covered;
     // Divided twice: squares of a lamp's radiance leave the range of f32 before their ratio does.
     let relative = covered / crate::num::sqrt(truth * truth + 0.01).min(f32::MAX);
     (relative * relative / 3.0).min(1.0) / n
 }
 
-/// The same for a pixel of a part of a picture; 0 before its first sample.
+/// What is brightest in a pixel (W m⁻² sr⁻¹), as its samples tell: if a share `p` of it has the radiance
+/// `L` and the rest is dark, the mean is `p L` and the variance `p (1 − p) L²`, so `L` is the mean and
+/// their ratio. A mean below 0.1, which relMSE takes for black, does not make it brighter. (Derived here.)
+#[inline]
+fn brightest_in(stats: &PixelStats) -> f32 {
+    let mean = stats.mean().average();
+    mean + stats.variance().average() / mean.max(0.1)
+}
+
+/// The expected error of a pixel of a part of a picture; 0 before its first sample.
 ///
 /// * `pixels` – row by row, `width` in each
 /// * `index` – of the pixel
+/// * `lamp` – radiance of a lamp that may be in it (W m⁻² sr⁻¹)
 #[inline]
-pub(super) fn behind_samples<P: Pixel>(pixels: &[P], width: usize, index: usize) -> f32 {
-    let brightness = |i: usize| pixels.get(i).map_or(0.0, |p| p.stats().mean().average());
-    let samples = pixels.get(index).map_or(0, |p| p.stats().count());
-    if samples == 0 || width == 0 {
+pub(super) fn behind_samples<P: Pixel>(pixels: &[P], width: usize, index: usize, lamp: f32) -> f32 {
+    let Some(stats) = pixels.get(index).map(P::stats).filter(|s| s.count() > 0 && width > 0) else {
         return 0.0;
-    }
-    let column = index % width;
-    let beside = [
-        (column > 0).then(|| index - 1),
-        (column + 1 < width).then_some(index + 1),
-        index.checked_sub(width),
-        Some(index + width),
-    ];
-    let brightest = beside.into_iter().flatten().map(brightness).fold(0.0, f32::max);
-    of_pixel(brightness(index), brightest, samples)
+    };
+    let (column, row) = (index % width, index / width);
+    let columns = column.saturating_sub(1)..(column + 2).min(width);
+    let around = (row.saturating_sub(1)..row + 2).flat_map(|y| columns.clone().map(move |x| y * width + x));
+    let brightness = |i: usize| pixels.get(i).map_or(0.0, |p| brightest_in(p.stats()));
+    let brighter = around.map(brightness).fold(lamp, f32::max);
+    of_pixel(stats.mean().average(), brightest_in(stats), brighter, stats.count())
 }
 
 #[cfg(test)]
@@ -52,14 +58,15 @@ mod tests {
 
     #[test]
     fn a_lamp_may_hide_in_the_pixel_beside_it_and_nothing_in_an_even_one() {
-        assert_eq!(of_pixel(1.0, 1.0, 16), 0.0);
-        assert_eq!(of_pixel(1.0, 0.2, 16), 0.0);
+        let error = |mean, brighter, n| of_pixel(mean, mean, brighter, n);
+        assert_eq!(error(1.0, 1.0, 16), 0.0);
+        assert_eq!(error(1.0, 0.2, 16), 0.0);
         // As wrong as can be, once in sixteen pixels.
-        assert!((of_pixel(0.1, 1e4, 16) * 16.0 - 1.0).abs() < 1e-6);
+        assert!((error(0.1, 1e4, 16) * 16.0 - 1.0).abs() < 1e-6);
         // An edge between greys is no matter.
-        assert!(of_pixel(0.2, 0.8, 16) < 1e-3);
+        assert!(error(0.2, 0.8, 16) < 1e-3);
         for (mean, brighter) in [(0.0, 3e38), (3e38, 3e38), (0.0, 1e-30)] {
-            let error = of_pixel(mean, brighter, 1);
+            let error = error(mean, brighter, 1);
             assert!((0.0..=1.0).contains(&error), "{mean} {brighter}: {error}");
         }
     }
@@ -77,16 +84,35 @@ mod tests {
                 sum += (share * lamp).powi(2) / (truth * truth + 0.01);
             }
         }
-        let ratio = f64::from(of_pixel(0.1, lamp as f32, n)) / (sum / f64::from(runs));
+        let ratio = f64::from(of_pixel(0.1, 0.1, lamp as f32, n)) / (sum / f64::from(runs));
         assert!((0.7..1.4).contains(&ratio), "{ratio}");
     }
 
     #[test]
-    fn neighbours_are_those_at_the_sides() {
-        let mut pixels = [PixelStats::NEW; 9];
+    fn neighbours_are_those_all_around() {
+        let mut pixels = [PixelStats::NEW; 20];
         pixels.iter_mut().for_each(|p| p.add(Rgb::splat(0.1)));
-        pixels[4].add(Rgb::splat(1e6));
-        let found: [bool; 9] = core::array::from_fn(|i| behind_samples(&pixels, 3, i) > 0.1);
-        assert_eq!(found, [false, true, false, true, false, true, false, true, false]);
+        pixels[7].add(Rgb::splat(1e6));
+        let found: [bool; 20] = core::array::from_fn(|i| behind_samples(&pixels, 5, i, 0.0) > 0.1);
+        let near = [1, 2, 3, 6, 8, 11, 12, 13];
+        assert_eq!(found, core::array::from_fn(|i| near.contains(&i)));
+        // A pixel that has seen it is not surprised; one that may hold a lamp is.
+        assert_eq!(behind_samples(&pixels, 5, 7, 0.0), 0.0);
+        assert!(behind_samples(&pixels, 5, 15, 1e6) > 0.1);
+    }
+
+    #[test]
+    fn a_lamp_is_as_bright_at_its_edge() {
+        let mut pixel = PixelStats::NEW;
+        for i in 0..100 {
+            pixel.add(Rgb::splat(if i < 4 { 500.0 } else { 0.0 }));
+        }
+        assert!((brightest_in(&pixel) / 500.0 - 1.0).abs() < 0.02, "{}", brightest_in(&pixel));
+        // Beyond the range of f32 is bright as well, and no error is NaN.
+        pixel.add(Rgb::splat(3e38));
+        let pixels = [pixel, PixelStats::from_words([0, 0, 0, 0, 0, 0, 4, 0])];
+        for i in 0..2 {
+            assert!((0.0..=1.0).contains(&behind_samples(&pixels, 2, i, 0.0)));
+        }
     }
 }

@@ -9,14 +9,16 @@ mod gather;
 mod heuristic;
 mod hidden;
 mod job;
+mod lamps;
 mod layers;
 mod observer;
 mod occlusion;
 mod probe;
 mod shading;
 mod stats;
+mod target;
 
-pub use adaptive::{AdaptiveTile, TILE, Target};
+pub use adaptive::{AdaptiveTile, TILE};
 pub use arrival::{Arrival, LightRay};
 pub use by_light::{ByArea, ByLight, ByProjected, BySolidAngle, StaticDensity};
 pub use convergence::{Convergence, DifferenceSums, ErrorEstimate};
@@ -28,6 +30,7 @@ pub use observer::Observer;
 pub use occlusion::Occlusion;
 pub use probe::{Irradiance, Probe};
 pub use stats::{Pixel, PixelStats};
+pub use target::Target;
 
 use crate::Rgb;
 use crate::geom::Ray;
