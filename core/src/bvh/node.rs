@@ -79,17 +79,17 @@ impl Node {
         self
     }
 
-    /// What a slot below [`WIDTH`] leads to.
+    /// What a slot leads to, counted modulo [`WIDTH`].
     #[inline]
     #[must_use]
     pub const fn child(&self, slot: usize) -> Child {
-        decode(self.slots[slot])
+        decode(self.slots[slot % WIDTH])
     }
 
-    /// The box of a slot below [`WIDTH`].
+    /// The box of a slot, counted modulo [`WIDTH`].
     #[must_use]
     pub const fn child_bounds(&self, slot: usize) -> Aabb {
-        let p = &self.planes;
+        let (p, slot) = (&self.planes, slot % WIDTH);
         Aabb {
             min: Vec3::new(p[0][slot], p[1][slot], p[2][slot]),
             max: Vec3::new(p[3][slot], p[4][slot], p[5][slot]),

@@ -82,7 +82,8 @@ impl Slabs {
 
     /// Which children the ray enters before `t_max`. Nothing here can be NaN, so that the minima and
     /// maxima mean the same on every target.
-    #[inline(always)]
+    #[cfg_attr(not(feature = "small"), inline(always))]
+    #[cfg_attr(feature = "small", inline(never))]
     pub(super) fn enter(&self, node: &Node, t_max: f32) -> Entered {
         let (mut enter, mut leave) = (Vec4::ZERO, Vec4::splat(t_max));
         for axis in 0..3 {

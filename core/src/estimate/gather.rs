@@ -85,7 +85,8 @@ impl<'g, S: Shape, L: Emitter, M: Material> Gather<'g, S, L, M> {
     }
 
     /// The light-sampling part: over every light, or over a chosen one for each sample.
-    #[inline]
+    #[cfg_attr(not(feature = "small"), inline)]
+    #[cfg_attr(feature = "small", inline(never))]
     fn over_lights(&self, sequence: &mut impl Sequence, observer: &mut impl Observer) -> Rgb {
         let choice = &self.direct.choice;
         let lights = self.scene.lights().len();
@@ -150,7 +151,8 @@ impl<'g, S: Shape, L: Emitter, M: Material> Gather<'g, S, L, M> {
     }
 
     /// The BSDF-sampling part: directions over the hemisphere, and the light that they meet.
-    #[inline]
+    #[cfg_attr(not(feature = "small"), inline)]
+    #[cfg_attr(feature = "small", inline(never))]
     fn over_hemisphere(&self, sequence: &mut impl Sequence) -> Rgb {
         let (shading, draws) = (self.shading, self.plan.bsdf);
         let mut sum = Rgb::BLACK;

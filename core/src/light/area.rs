@@ -4,7 +4,7 @@ use super::error::check_emission;
 use super::view::Keep;
 use super::{
     Cone, Density, Emitter, LightBounds, LightError, LightSample, Painted, Receiver, SurfaceDensity,
-    SurfaceRadiance, SurfaceView, UseView,
+    SurfaceRadiance, SurfaceSample, SurfaceView, UseView,
 };
 use crate::Rgb;
 use crate::num::PI;
@@ -19,6 +19,15 @@ pub enum Sides {
     Front,
     /// Both.
     Both,
+}
+
+impl Sides {
+    /// Cosine on the emitting side; 0 or less where nothing is emitted.
+    #[inline]
+    pub(super) fn cos_light(self, normal: Vec3, wi: Vec3) -> f32 {
+        let cos = -normal.dot(wi);
+        if self == Self::Both { cos.abs() } else { cos }
+    }
 }
 
 /// A shape whose surface can be sampled.
@@ -151,61 +160,48 @@ impl<S: SampledShape, R: SurfaceRadiance> AreaLight<S, R> {
         self.shape.view(from, method, self.sides)
     }
 
-    /// Hands what `from` sees of the light to `then`: in line, where the code for each density is made for
-    /// its use.
+    /// The density over what `from` sees, for several questions.
     #[cfg(not(feature = "small"))]
-    #[inline]
-    fn seen<U: UseView<S::View>>(
+    pub(super) fn density(
         &self,
         from: &Receiver,
         method: SurfaceDensity,
-        then: U,
-    ) -> Option<U::Output> {
-        self.shape.with_view(from, method, self.sides, then)
+    ) -> Option<impl SurfaceView + use<S, R>> {
+        self.view(from, method)
     }
 
-    /// Hands what `from` sees of the light to `then`: out of line, where a shape has the code for each
-    /// density once.
+    /// The density over what `from` sees, worked out anew for each question.
     #[cfg(feature = "small")]
-    fn seen<U: UseView<S::View>>(
-        &self,
-        from: &Receiver,
+    pub(super) fn density<'s>(
+        &'s self,
+        from: &'s Receiver,
         method: SurfaceDensity,
-        then: U,
-    ) -> Option<U::Output> {
-        #[inline(never)]
-        fn view<S: SampledShape>(
-            shape: &S,
-            from: &Receiver,
-            method: SurfaceDensity,
-            sides: Sides,
-        ) -> Option<S::View> {
-            shape.with_view(from, method, sides, Keep)
-        }
-        then.with(view(&self.shape, from, method, self.sides)?, |view| view)
+    ) -> Option<impl SurfaceView + 's> {
+        self.ask(from, method, Question::Seen).map(|_| Again { light: self, from, method })
     }
 
-    /// Cosine on the emitting side; 0 or less where nothing is emitted.
+    /// Answers from what `from` sees of the light; `None` when that is nothing, or not drawn.
     #[inline]
-    pub(super) fn cos_light(&self, normal: Vec3, wi: Vec3) -> f32 {
-        let cos = -normal.dot(wi);
-        if self.sides == Sides::Both { cos.abs() } else { cos }
+    pub(super) fn ask(&self, from: &Receiver, method: SurfaceDensity, question: Question) -> Option<Answer> {
+        ask(&self.shape, from, method, self.sides, question)
     }
 }
 
 impl<S: SampledShape, R: SurfaceRadiance> Emitter for AreaLight<S, R> {
     #[inline]
     fn sample(&self, from: &Receiver, method: SurfaceDensity, u: [f32; 2]) -> Option<LightSample> {
-        self.seen(from, method, Draw { light: self, from, u })
+        let Answer { sample, pdf_solid_angle } = self.ask(from, method, Question::Draw(u))?;
+        let SurfaceSample { at, wi, distance } = sample;
+        let incident = self.radiance.at(&self.shape, at.point);
+        Some(LightSample { wi, distance, incident, density: Density::SolidAngle(pdf_solid_angle) })
     }
 
     #[inline]
     fn pdf_solid_angle(&self, from: &Receiver, method: SurfaceDensity, wi: Vec3, at: &SurfacePoint) -> f32 {
-        let cos_light = self.cos_light(at.normal, wi);
-        if !(cos_light > 0.0) {
+        if !(self.sides.cos_light(at.normal, wi) > 0.0) {
             return 0.0;
         }
-        self.seen(from, method, Query { at, wi, cos_light }).unwrap_or(0.0)
+        self.ask(from, method, Question::density(at, wi)).map_or(0.0, |answer| answer.pdf_solid_angle)
     }
 
     #[inline]
@@ -241,46 +237,118 @@ impl<S: SampledShape, R: SurfaceRadiance> Emitter for AreaLight<S, R> {
     }
 }
 
-/// Draws a sample.
-struct Draw<'a, S, R> {
-    light: &'a AreaLight<S, R>,
-    from: &'a Receiver,
-    u: [f32; 2],
+/// What a light asks of the density over what is seen of it.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Question {
+    /// A direction, from two uniforms in `[0, 1)`.
+    Draw([f32; 2]),
+    /// The density of a direction; how far it goes does not matter.
+    Density(SurfaceSample),
+    /// Whether anything is seen at all.
+    #[cfg(feature = "small")]
+    Seen,
 }
 
-impl<S: SampledShape, R: SurfaceRadiance> UseView<S::View> for Draw<'_, S, R> {
-    type Output = LightSample;
-
-    #[cfg_attr(not(feature = "small"), inline(always))]
-    fn with<V: SurfaceView>(self, view: V, _: impl FnOnce(V) -> S::View) -> Option<LightSample> {
-        let Self { light, from, u } = self;
-        let sample = view.sample(u)?;
-        let cos_light = light.cos_light(sample.at.normal, sample.wi);
-        if !(cos_light > 0.0) || (light.sides == Sides::Both && light.shape.hides(from.point, &sample.at)) {
-            return None;
-        }
-        let pdf = view.pdf_solid_angle(&sample.at, sample.wi, cos_light)?;
-        Some(LightSample {
-            wi: sample.wi,
-            distance: sample.distance,
-            incident: light.radiance.at(&light.shape, sample.at.point),
-            density: Density::SolidAngle(pdf),
-        })
+impl Question {
+    /// For the density of the unit direction `wi` that meets the surface at `at`.
+    #[inline]
+    fn density(at: &SurfacePoint, wi: Vec3) -> Self {
+        Self::Density(SurfaceSample { at: *at, wi, distance: 0.0 })
     }
 }
 
-/// Asks for the density of a direction.
-struct Query<'a> {
-    at: &'a SurfacePoint,
-    wi: Vec3,
-    cos_light: f32,
+/// The density of a direction that was drawn or given.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Answer {
+    /// The direction.
+    pub(super) sample: SurfaceSample,
+    /// Its density (sr⁻¹), positive and finite.
+    pub(super) pdf_solid_angle: f32,
 }
 
-impl<A> UseView<A> for Query<'_> {
-    type Output = f32;
+#[cfg(feature = "small")]
+impl Answer {
+    /// To whether anything is seen.
+    const SEEN: Self = {
+        let at = SurfacePoint { point: Vec3::ZERO, error: Vec3::ZERO, normal: Vec3::Z };
+        Self { sample: SurfaceSample { at, wi: Vec3::Z, distance: 0.0 }, pdf_solid_angle: 0.0 }
+    };
+}
+
+/// Answers a question about a shape: in line, where the code of each density is made for its use, or with
+/// feature `small` out of line, where a shape has the code of each once, whatever it emits.
+#[cfg_attr(not(feature = "small"), inline(always))]
+#[cfg_attr(feature = "small", inline(never))]
+fn ask<S: SampledShape>(
+    shape: &S,
+    from: &Receiver,
+    method: SurfaceDensity,
+    sides: Sides,
+    question: Question,
+) -> Option<Answer> {
+    shape.with_view(from, method, sides, Asked { shape, from: from.point, sides, question })
+}
+
+/// A question, and about what.
+struct Asked<'a, S> {
+    shape: &'a S,
+    from: Vec3,
+    sides: Sides,
+    question: Question,
+}
+
+impl<S: SampledShape> UseView<S::View> for Asked<'_, S> {
+    type Output = Answer;
 
     #[cfg_attr(not(feature = "small"), inline(always))]
-    fn with<V: SurfaceView>(self, view: V, _: impl FnOnce(V) -> A) -> Option<f32> {
-        view.pdf_solid_angle(self.at, self.wi, self.cos_light)
+    fn with<V: SurfaceView>(self, view: V, _: impl FnOnce(V) -> S::View) -> Option<Answer> {
+        let (sample, is_drawn) = match self.question {
+            Question::Draw(u) => (view.sample(u)?, true),
+            Question::Density(sample) => (sample, false),
+            #[cfg(feature = "small")]
+            Question::Seen => return Some(Answer::SEEN),
+        };
+        let SurfaceSample { at, wi, .. } = &sample;
+        let cos_light = self.sides.cos_light(at.normal, *wi);
+        let hidden = is_drawn && self.sides == Sides::Both && self.shape.hides(self.from, at);
+        if !(cos_light > 0.0) || hidden {
+            return None;
+        }
+        let pdf_solid_angle = view.pdf_solid_angle(at, *wi, cos_light)?;
+        Some(Answer { sample, pdf_solid_angle })
+    }
+}
+
+/// A density that is worked out for each question.
+#[cfg(feature = "small")]
+struct Again<'a, S, R> {
+    light: &'a AreaLight<S, R>,
+    from: &'a Receiver,
+    method: SurfaceDensity,
+}
+
+#[cfg(feature = "small")]
+impl<S, R> Clone for Again<'_, S, R> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+#[cfg(feature = "small")]
+impl<S, R> Copy for Again<'_, S, R> {}
+
+#[cfg(feature = "small")]
+impl<S: SampledShape, R: SurfaceRadiance> SurfaceView for Again<'_, S, R> {
+    fn sample(&self, u: [f32; 2]) -> Option<SurfaceSample> {
+        self.light.ask(self.from, self.method, Question::Draw(u)).map(|answer| answer.sample)
+    }
+
+    fn pdf_solid_angle(&self, at: &SurfacePoint, wi: Vec3, _: f32) -> Option<f32> {
+        let answer = self.light.ask(self.from, self.method, Question::density(at, wi))?;
+        Some(answer.pdf_solid_angle)
+    }
+
+    fn invert(&self, at: &SurfacePoint, wi: Vec3) -> Option<[f32; 2]> {
+        self.light.view(self.from, self.method)?.invert(at, wi)
     }
 }

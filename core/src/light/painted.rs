@@ -79,16 +79,12 @@ impl<'a> PaintedRectangle<'a> {
     }
 
     /// The other density, where there is one: none far from the light.
-    fn plain(
-        &self,
-        from: &Receiver,
-        method: SurfaceDensity,
-    ) -> Option<<Rectangle as super::SampledShape>::View> {
+    fn plain<'s>(&'s self, from: &'s Receiver, method: SurfaceDensity) -> Option<impl SurfaceView + 's> {
         let shape = self.light.shape();
         let radius = (shape.half_u() + shape.half_v()).length();
         match method.required(from, shape.centre(), radius, SurfaceDensity::Area) {
             SurfaceDensity::Area => None,
-            near => self.light.view(from, near),
+            near => self.light.density(from, near),
         }
     }
 
@@ -100,7 +96,7 @@ impl<'a> PaintedRectangle<'a> {
         wi: Vec3,
         at: &SurfacePoint,
     ) -> Option<f32> {
-        let cos_light = self.light.cos_light(at.normal, wi);
+        let cos_light = self.light.sides().cos_light(at.normal, wi);
         if !(cos_light > 0.0) {
             return None;
         }

@@ -64,12 +64,27 @@ pub trait FlatShape: SampledShape {
         };
         match method {
             SurfaceDensity::Area => then.with(AreaView::new(*self, from), View::Area),
-            SurfaceDensity::SolidAngle => {
-                then.with(self.solid_angle_view(from.point, &chart)?, View::SolidAngle)
-            }
-            _ => ProjectedView::with(self, from, &chart, |view| then.with(view, View::Projected)),
+            SurfaceDensity::SolidAngle => with_solid_angle(self, from, &chart, then),
+            _ => ProjectedView::with(self, from, &chart, |view| {
+                then.with(view, |view: &ProjectedView<Self, N>| View::Projected(*view))
+            }),
         }
     }
+}
+
+/// Hands the view by solid angle to `then`.
+#[cfg_attr(not(feature = "small"), inline(always))]
+#[cfg_attr(feature = "small", inline(never))]
+fn with_solid_angle<S: FlatShape, const N: usize, U>(
+    shape: &S,
+    from: &Receiver,
+    chart: &Chart,
+    then: U,
+) -> Option<U::Output>
+where
+    U: UseView<View<S, S::SolidAngle, ProjectedView<S, N>>>,
+{
+    then.with(shape.solid_angle_view(from.point, chart)?, View::SolidAngle)
 }
 
 /// The part of a polygon above the receiver's horizon: uniform over projected solid angle,
@@ -90,18 +105,18 @@ impl<S: FlatShape, const N: usize> ProjectedView<S, N> {
     ///
     /// * `chart` – the shape's, from the receiver
     #[cfg_attr(not(feature = "small"), inline(always))]
+    #[cfg_attr(feature = "small", inline(never))]
     pub fn with<R>(
         shape: &S,
         from: &Receiver,
         chart: &Chart,
-        then: impl FnOnce(Self) -> Option<R>,
+        then: impl FnOnce(&Self) -> Option<R>,
     ) -> Option<R> {
-        let mut view =
-            Self { shape: *shape, from: from.point, polygon: ProjectedPolygon::empty(from.normal) };
-        if !view.polygon.prepare(chart, shape.corners().as_ref()) {
+        let mut view = Self { shape: *shape, from: from.point, polygon: ProjectedPolygon::EMPTY };
+        if !view.polygon.prepare(from.normal, chart, shape.corners().as_ref()) {
             return None;
         }
-        then(view)
+        then(&view)
     }
 }
 
@@ -134,8 +149,9 @@ pub(super) fn flat_projected_solid_angle<S: FlatShape, const N: usize>(
     if !faces(&chart, sides) {
         return 0.0;
     }
-    let polygon = ProjectedPolygon::<N>::new(from.normal, &chart, shape.corners().as_ref());
-    polygon.map_or(0.0, |polygon| polygon.projected_solid_angle())
+    let mut polygon = ProjectedPolygon::<N>::EMPTY;
+    let is_seen = polygon.prepare(from.normal, &chart, shape.corners().as_ref());
+    if is_seen { polygon.projected_solid_angle() } else { 0.0 }
 }
 
 impl<S: FlatShape, const N: usize> SurfaceView for ProjectedView<S, N> {

@@ -10,8 +10,11 @@ use crate::solid_angle::{SphericalTriangle, TrianglePlace};
 use crate::warp;
 use glam::{Vec2, Vec3};
 
+/// As in [`crate::projected::ProjectedPolygon`]; with feature `small` the code is that of a rectangle.
+const ROOM: usize = if cfg!(feature = "small") { 6 } else { 5 };
+
 impl SampledShape for Triangle {
-    type View = View<Self, TriangleSolidAngle, ProjectedView<Self, 5>>;
+    type View = View<Self, TriangleSolidAngle, ProjectedView<Self, ROOM>>;
 
     /// Density `1 / area` (m⁻²).
     #[inline]
@@ -41,7 +44,7 @@ impl SampledShape for Triangle {
     }
 
     fn projected_solid_angle(&self, from: &Receiver, sides: Sides) -> Option<f32> {
-        Some(flat_projected_solid_angle::<_, 5>(self, from, sides))
+        Some(flat_projected_solid_angle::<_, ROOM>(self, from, sides))
     }
 }
 

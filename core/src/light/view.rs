@@ -50,6 +50,23 @@ pub trait SurfaceView: Copy {
     fn invert(&self, at: &SurfacePoint, wi: Vec3) -> Option<[f32; 2]>;
 }
 
+/// A view that stays where it was made.
+impl<V: SurfaceView> SurfaceView for &V {
+    #[cfg_attr(not(feature = "small"), inline(always))]
+    fn sample(&self, u: [f32; 2]) -> Option<SurfaceSample> {
+        V::sample(self, u)
+    }
+
+    #[cfg_attr(not(feature = "small"), inline(always))]
+    fn pdf_solid_angle(&self, at: &SurfacePoint, wi: Vec3, cos_light: f32) -> Option<f32> {
+        V::pdf_solid_angle(self, at, wi, cos_light)
+    }
+
+    fn invert(&self, at: &SurfacePoint, wi: Vec3) -> Option<[f32; 2]> {
+        V::invert(self, at, wi)
+    }
+}
+
 /// What is done with a view, whichever density it has.
 ///
 /// A view can be some hundred bytes of which a query needs four: handed to its user, it stays in

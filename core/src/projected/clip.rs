@@ -29,10 +29,7 @@ pub(super) struct Above<const N: usize> {
 
 impl<const N: usize> Above<N> {
     /// No corners.
-    #[cfg_attr(not(feature = "small"), inline(always))]
-    pub(super) fn empty() -> Self {
-        Self { volume: 0.0, outline: Outline::empty(), points: [DVec3::ZERO; N] }
-    }
+    pub(super) const EMPTY: Self = Self { volume: 0.0, outline: Outline::EMPTY, points: [DVec3::ZERO; N] };
 
     /// Adds the corners at `places`, and turns the frame; none when the receiver is in the plane.
     ///
@@ -66,7 +63,8 @@ impl<const N: usize> Above<N> {
     /// Keeps what is above the horizon: fewer than three corners when that is nothing.
     ///
     /// Source: Sutherland and Hodgman 1974, *Reentrant Polygon Clipping*, CACM 17(1), for one plane.
-    #[inline]
+    #[cfg_attr(not(feature = "small"), inline)]
+    #[cfg_attr(feature = "small", inline(never))]
     pub(super) fn clip(&mut self) {
         let whole = *self;
         self.outline.len = 0;
@@ -105,10 +103,7 @@ impl<const N: usize> Above<N> {
 
 impl<const N: usize> Outline<N> {
     /// No corners.
-    #[cfg_attr(not(feature = "small"), inline(always))]
-    pub(super) fn empty() -> Self {
-        Self { zenith: DVec3::ZERO, places: [DVec2::ZERO; N], len: 0 }
-    }
+    pub(super) const EMPTY: Self = Self { zenith: DVec3::ZERO, places: [DVec2::ZERO; N], len: 0 };
 
     /// The corners above the horizon and on it, in the plane's coordinates.
     #[cfg_attr(not(feature = "small"), inline(always))]

@@ -64,30 +64,39 @@ impl<const N: usize> ProjectedPolygon<N> {
     #[cfg_attr(not(feature = "small"), inline(always))]
     #[must_use]
     pub fn new(normal: Vec3, chart: &Chart, corners: &[Vec2]) -> Option<Self> {
-        let mut polygon = Self::empty(normal);
-        if polygon.prepare(chart, corners) { Some(polygon) } else { None }
+        let mut polygon = Self::EMPTY;
+        if polygon.prepare(normal, chart, corners) { Some(polygon) } else { None }
     }
 
     /// Nothing yet.
-    #[cfg_attr(not(feature = "small"), inline(always))]
-    pub(crate) fn empty(normal: Vec3) -> Self {
-        Self { frame: Frame::from_normal(normal), zenith: Vec3::ZERO, sectors: Sectors::empty() }
-    }
+    pub(crate) const EMPTY: Self = Self {
+        frame: Frame { s: Vec3::ZERO, t: Vec3::ZERO, n: Vec3::ZERO },
+        zenith: Vec3::ZERO,
+        sectors: Sectors::EMPTY,
+    };
 
     /// [`ProjectedPolygon::new`] in place, from nothing; false instead of `None`.
     #[cfg_attr(not(feature = "small"), inline(always))]
-    pub(crate) fn prepare(&mut self, chart: &Chart, corners: &[Vec2]) -> bool {
-        let mut above = Above::<N>::empty();
+    pub(crate) fn prepare(&mut self, normal: Vec3, chart: &Chart, corners: &[Vec2]) -> bool {
+        self.frame = Frame::from_normal(normal);
+        self.cut(chart, corners);
+        self.sectors.measure();
+        // More than the hemisphere is rounding, of numbers too far apart for double precision.
+        self.sectors.total > 0.0 && self.sectors.total < num::PI * 1.000_1
+    }
+
+    /// Cuts what is above the horizon into sectors.
+    #[cfg_attr(not(feature = "small"), inline(always))]
+    #[cfg_attr(feature = "small", inline(never))]
+    fn cut(&mut self, chart: &Chart, corners: &[Vec2]) {
+        let mut above = Above::<N>::EMPTY;
         if above.fill(&mut self.frame, chart, corners) {
             // Their number as the caller knows it: as a constant, for all but polygons.
             self.sectors.fill(&above, corners.len());
         } else {
             self.sectors.fill_clipped(&mut above);
         }
-        let Sectors { total, unit, .. } = self.sectors;
-        self.zenith = (above.outline.zenith * (f64::from(unit) / above.volume)).as_vec3();
-        // More than the hemisphere is rounding, of numbers too far apart for double precision.
-        total > 0.0 && total < num::PI * 1.000_1
+        self.zenith = (above.outline.zenith * (f64::from(self.sectors.unit) / above.volume)).as_vec3();
     }
 
     /// The projected solid angle (sr), above 0 and at most π.

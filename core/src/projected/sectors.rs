@@ -62,21 +62,18 @@ struct Reached {
 
 impl<const N: usize> Sectors<N> {
     /// None.
-    #[cfg_attr(not(feature = "small"), inline(always))]
-    pub(super) fn empty() -> Self {
-        Self {
-            to_zenith: false,
-            len: 0,
-            unit: 0.0,
-            total: 0.0,
-            areas: [0.0; N],
-            poles: [[0.0; N]; 3],
-            outer: [[0.0; N]; 3],
-            rises: [0.0; N],
-            outline: Outline::empty(),
-            sources: [Source::NONE; N],
-        }
-    }
+    pub(super) const EMPTY: Self = Self {
+        to_zenith: false,
+        len: 0,
+        unit: 0.0,
+        total: 0.0,
+        areas: [0.0; N],
+        poles: [[0.0; N]; 3],
+        outer: [[0.0; N]; 3],
+        rises: [0.0; N],
+        outline: Outline::EMPTY,
+        sources: [Source::NONE; N],
+    };
 
     /// Adds those of a polygon; none when rounding has turned it inside out, or it has no width.
     ///
@@ -87,7 +84,6 @@ impl<const N: usize> Sectors<N> {
             self.to_zenith = layout.is_around();
             self.outline = above.outline;
             self.sweep(above, layout, n);
-            self.measure();
         }
     }
 
@@ -139,9 +135,9 @@ impl<const N: usize> Sectors<N> {
         Reached { corner: step.corner.into(), outer, scale }
     }
 
-    /// Works out the areas.
+    /// Works out the areas of what has been added.
     #[cfg_attr(not(feature = "small"), inline(always))]
-    fn measure(&mut self) {
+    pub(super) fn measure(&mut self) {
         self.measure_four(0);
         for i in (4..self.len).step_by(4) {
             self.measure_four(i);

@@ -122,6 +122,7 @@ impl Shape for Triangle {
     /// Source: Woop, Benthin, Wald 2013, *Watertight Ray/Triangle Intersection*, JCGT 2(1),
     /// appendix A; bound on `t` after Pharr, Jakob, Humphreys 2023, section 6.8.7.
     #[cfg_attr(not(feature = "small"), inline(always))]
+    #[cfg_attr(feature = "small", inline(never))]
     fn intersect(&self, ray: &PreparedRay, t_max: f32) -> Option<ShapeHit> {
         // The corners relative to the origin, axis by axis, in the sheared space of the ray.
         let along = self.axes[ray.axes[2] as usize] - ray.origin[2];
