@@ -16,7 +16,9 @@ cd "$root/tests/firmware"
 for_target() {
     local target=$1
     shift
-    "$root/scripts/target-env.sh" "$target" cargo "$@" --quiet --locked --release --target "$target"
+    local profile=(--release)
+    [[ " $* " != *' --profile '* ]] || profile=()
+    "$root/scripts/target-env.sh" "$target" cargo "$@" --quiet --locked "${profile[@]}" --target "$target"
 }
 
 run() {
@@ -28,7 +30,11 @@ run() {
 }
 
 m4f=thumbv7em-none-eabihf
-elf() { echo "$CARGO_TARGET_DIR/$m4f/release/footprint_$1"; }
+elf() {
+    local profile=tiny
+    [ "$1" != a ] || profile=release
+    echo "$CARGO_TARGET_DIR/$m4f/$profile/footprint_$1"
+}
 qemu() { timeout 120 qemu-system-arm -M mps2-an386 -nographic -semihosting-config enable=on,target=native "$@"; }
 
 # Bytes of the sections that stay in flash.
@@ -44,18 +50,22 @@ data() {
     readelf -sW "$1" | awk '$4 == "OBJECT" && $8 ~ /scenes/ { sum += $3 } END { print sum + 0 }'
 }
 
+# What has no tree is smallest in line; the rest out of line, each part once.
+footprints() {
+    local extra=$1
+    for_target $m4f build --features "$extra" --bin footprint_a
+    for_target $m4f build --profile tiny --features "small,$extra" --bin footprint_b --bin footprint_c
+}
+
 footprint() {
     local over=0 name most_flash most_stack bytes scene stack
     declare -A stacks
     # The stacks first: the programs without a word to say stay for a look with nm.
-    for_target $m4f build --features stack --bin footprint_a --bin footprint_b
-    for_target $m4f build --features small,stack --bin footprint_c
+    footprints stack
     for name in a b c; do
         stacks[$name]=$(qemu -kernel "$(elf $name)")
     done
-    # What chooses nothing at run time is smallest when it is in line.
-    for_target $m4f build --bin footprint_a --bin footprint_b
-    for_target $m4f build --features small --bin footprint_c
+    footprints ''
     printf '%-8s %10s %10s %10s %10s %10s\n' program flash 'at most' stack 'at most' scene
     while read -r name most_flash most_stack; do
         [[ $name != '#'* ]] || continue
