@@ -62,7 +62,8 @@ def rounding_step(mitsuba, path):
 def with_halflight(options, mitsuba, scene, seed):
     with tempfile.TemporaryDirectory() as folder:
         out = os.path.join(folder, "out.exr")
-        command = [options.halflight, "render", scene, "--spp", str(options.spp), "--seed", str(seed), "-o", out]
+        command = [options.halflight, "render", scene, "--seed", str(seed), "-o", out]
+        command += ["--spp", str(options.spp)] if options.spp else []
         start = cpu_seconds(resource.RUSAGE_CHILDREN)
         done = subprocess.run(command + options.flag, capture_output=True, text=True, check=False)
         seconds = cpu_seconds(resource.RUSAGE_CHILDREN) - start
