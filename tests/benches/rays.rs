@@ -130,11 +130,18 @@ fn blocked(scene: &AnyScene<'_>, ray: &Ray, reach: f32) -> bool {
 fn write(folder: &Path, scene: &AnyScene<'_>, sets: &[(&str, Vec<Reaching>)]) -> std::io::Result<()> {
     std::fs::create_dir_all(folder)?;
     let bytes = |numbers: Vec<f32>| numbers.into_iter().flat_map(f32::to_le_bytes).collect::<Vec<u8>>();
-    let corners = scene.surfaces().iter().filter_map(|surface| match &surface.shape {
-        AnyShape::Triangle(triangle) => Some(triangle.corners()),
-        _ => None,
+    let corners = scene.surfaces().iter().flat_map(|surface| match &surface.shape {
+        AnyShape::Triangle(triangle) => triangle.corners().to_vec(),
+        AnyShape::Rectangle(rectangle) => {
+            let corner =
+                |u: f32, v: f32| rectangle.centre() + rectangle.half_u() * u + rectangle.half_v() * v;
+            let [a, b, c, d] = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
+            vec![a, b, c, a, c, d]
+        }
+        // Nothing that is a few triangles.
+        _ => Vec::new(),
     });
-    let triangles = corners.flatten().flat_map(|corner| corner.to_array()).collect();
+    let triangles = corners.flat_map(|corner| corner.to_array()).collect();
     std::fs::write(folder.join("triangles.bin"), bytes(triangles))?;
     for (name, rays) in sets {
         let numbers = rays.iter().flat_map(|(ray, reach)| {
