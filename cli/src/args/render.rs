@@ -10,7 +10,7 @@ use std::path::PathBuf;
 /// `halflight render`
 #[derive(Debug, Args)]
 pub(crate) struct RenderArgs {
-    /// A scene file (Mitsuba 3 XML) or the name of a built-in scene [default: the first of
+    /// A scene file (Mitsuba 3 XML or glTF 2.0) or the name of a built-in scene [default: the first of
     /// `halflight scenes`]
     #[arg(value_name = "SCENE")]
     pub(crate) scene: Option<PathBuf>,

@@ -11,7 +11,7 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 #[command(after_help = COLUMNS)]
 pub(crate) struct TradeoffArgs {
-    /// A scene file (Mitsuba 3 XML) or the name of a built-in scene [default: the first of
+    /// A scene file (Mitsuba 3 XML or glTF 2.0) or the name of a built-in scene [default: the first of
     /// `halflight scenes`]
     #[arg(value_name = "SCENE")]
     pub(crate) scene: Option<PathBuf>,

@@ -4,6 +4,7 @@ mod bad_input;
 mod bits;
 mod compare;
 mod disk;
+mod gltf;
 mod goals;
 mod help;
 #[cfg(unix)]
