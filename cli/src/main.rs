@@ -8,6 +8,7 @@ mod driver;
 mod failure;
 mod goal;
 mod interrupt;
+mod measure;
 mod number;
 mod output;
 mod picture;

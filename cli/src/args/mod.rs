@@ -76,7 +76,7 @@ pub(crate) struct SceneArgs {
 /// `halflight export`
 #[derive(Debug, Args)]
 pub(crate) struct ExportArgs {
-    /// A scene file (Mitsuba 3 XML) or the name of a built-in scene
+    /// A scene file (Mitsuba 3 XML or glTF 2.0) or the name of a built-in scene
     #[arg(value_name = "SCENE")]
     pub(crate) scene: PathBuf,
 
@@ -114,7 +114,7 @@ impl SceneFormat {
 /// `halflight inspect`
 #[derive(Debug, Args)]
 pub(crate) struct InspectArgs {
-    /// A scene file (Mitsuba 3 XML) or the name of a built-in scene
+    /// A scene file (Mitsuba 3 XML or glTF 2.0) or the name of a built-in scene
     #[arg(value_name = "SCENE")]
     pub(crate) scene: Option<PathBuf>,
 
@@ -143,6 +143,10 @@ pub(crate) struct CompareArgs {
     /// Write the absolute difference as a picture (.png, .exr or .hdr)
     #[arg(short, long, value_name = "OUT")]
     pub(crate) output: Option<PathBuf>,
+
+    /// Write where people see a difference, by FLIP: from black over red and yellow to white
+    #[arg(long, value_name = "OUT")]
+    pub(crate) heat: Option<PathBuf>,
 
     /// Brighten the difference by this many stops when it is written as .png
     #[arg(long, value_name = "EV", default_value_t = 0.0, value_parser = values::finite, allow_negative_numbers = true)]
@@ -187,7 +191,11 @@ All measures are taken over pixels and channels; R is the reference, I the pictu
   RMSE    square root of the mean of (I - R)², linear
   relMSE  mean of (I - R)² / (R² + 0.01), linear
   PSNR    of the pictures as shown: sRGB, cut off at white [dB]
-  mean    mean of I over mean of R: 1 when the picture is neither too bright nor too dark";
+  SSIM    structural similarity of the pictures as shown: 1 for equal ones
+  FLIP    mean difference that people see when the pictures alternate: 0 none, 1 the largest
+  mean    mean of I over mean of R: 1 when the picture is neither too bright nor too dark
+When both pictures carry standard errors (render --layers), blocks of 16×16 pixels are compared: if one
+is off by more than noise explains, the pictures disagree, and the exit code is 1.";
 
 /// Reads the command line; exits on misuse, and after printing help.
 pub(crate) fn parse() -> Option<Command> {

@@ -6,7 +6,7 @@ mod srgb;
 mod write;
 
 pub(crate) use layers::{Layer, encode_layers};
-pub(crate) use read::read;
+pub(crate) use read::{read, read_errors};
 pub(crate) use srgb::{decode, encode};
 pub(crate) use write::Format;
 

@@ -21,6 +21,29 @@ pub(crate) fn read(path: &Path) -> Result<Picture, Failure> {
     Ok(picture(&image))
 }
 
+/// The standard errors of a picture's pixels, which the layers `error.R`, `error.G` and `error.B` of an
+/// OpenEXR file hold; `None` when it has none.
+///
+/// # Errors
+/// When the file has them, but cannot be read.
+pub(crate) fn read_errors(path: &Path) -> Result<Option<Picture>, Failure> {
+    if !path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("exr")) {
+        return Ok(None);
+    }
+    let image = exr::prelude::read_first_flat_layer_from_file(path)
+        .map_err(|e| Failure::new(format!("cannot read the layers of {}: {e}", path.display())))?;
+    let (size, channels) = (image.layer_data.size, image.layer_data.channel_data.list);
+    let channel = |name: &str| {
+        let found = channels.iter().find(|channel| channel.name.to_string() == name)?;
+        Some(found.sample_data.values_as_f32().collect::<Vec<f32>>())
+    };
+    let (Some(r), Some(g), Some(b)) = (channel("error.R"), channel("error.G"), channel("error.B")) else {
+        return Ok(None);
+    };
+    let pixels = r.into_iter().zip(g).zip(b).map(|((r, g), b)| Rgb::new(r, g, b)).collect();
+    Ok(Some(Picture { width: size.x() as u32, height: size.y() as u32, pixels }))
+}
+
 /// Linear RGB, without alpha.
 fn picture(image: &DynamicImage) -> Picture {
     let linear = matches!(image, DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_));

@@ -16,7 +16,7 @@ fn pictures() -> Folder {
 fn equal_pictures_are_equal() {
     let folder = pictures();
     let line = folder.good("compare a.exr a.exr --max-relmse 0");
-    assert_eq!(line, "RMSE 0  relMSE 0  PSNR ∞ dB  mean 1.00000\n");
+    assert_eq!(line, "RMSE 0  relMSE 0  PSNR ∞ dB  SSIM 1.0000  FLIP 0  mean 1.00000\n");
 }
 
 #[test]
@@ -33,7 +33,7 @@ fn a_check_that_fails_is_code_1() {
 fn json_holds_the_measures() {
     let folder = pictures();
     let json: Value = serde_json::from_str(&folder.good("compare a.exr b.exr --json")).unwrap();
-    for measure in ["rmse", "relmse", "psnr", "mean_ratio"] {
+    for measure in ["rmse", "relmse", "psnr", "ssim", "flip", "mean_ratio"] {
         assert!(json[measure].as_f64().is_some_and(|v| v > 0.0), "{measure}: {json}");
     }
     assert_eq!(json["passed"], true);
@@ -72,4 +72,20 @@ fn the_difference_is_written_as_a_picture() {
     let difference = image::open(folder.path("difference.png")).unwrap().to_rgb8();
     assert_eq!(difference.dimensions(), (24, 16));
     assert!(difference.pixels().any(|p| p.0 != [0; 3]));
+}
+
+#[test]
+fn noise_is_told_from_a_difference() {
+    let folder = Folder::new();
+    for (name, more) in [("a", ""), ("b", "--seed 1"), ("sky", "--seed 2 --sky 40,0")] {
+        folder.good(&format!("render scene.xml -o {name}.exr --quiet --layers --spp 64 {more}"));
+    }
+    let same = folder.good("compare a.exr b.exr --heat heat.png");
+    assert!(same.contains("they agree within noise"), "{same}");
+    assert!(image::open(folder.path("heat.png")).is_ok());
+    let run = folder.run("compare a.exr sky.exr");
+    assert_eq!(run.code, Some(1), "{run:?}");
+    assert!(run.stderr.contains("differ by more than noise"), "{run:?}");
+    let json: Value = serde_json::from_str(&folder.run("compare a.exr sky.exr --json").stdout).unwrap();
+    assert_eq!((&json["passed"], &json["noise"]["agree"]), (&false.into(), &false.into()));
 }
