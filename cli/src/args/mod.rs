@@ -194,8 +194,8 @@ All measures are taken over pixels and channels; R is the reference, I the pictu
   SSIM    structural similarity of the pictures as shown: 1 for equal ones
   FLIP    mean difference that people see when the pictures alternate: 0 none, 1 the largest
   mean    mean of I over mean of R: 1 when the picture is neither too bright nor too dark
-When both pictures carry standard errors (render --layers), blocks of 16×16 pixels are compared: if one
-is off by more than noise explains, the pictures disagree, and the exit code is 1.";
+When both pictures carry standard errors (render --layers), blocks of 16×16 pixels are compared:
+if one is off by more than noise explains, they disagree, and the exit code is 1.";
 
 /// Reads the command line; exits on misuse, and after printing help.
 pub(crate) fn parse() -> Option<Command> {

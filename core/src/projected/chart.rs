@@ -70,7 +70,7 @@ mod tests {
         let by_axes = Chart::from_axes(from, a, u, v);
         assert_eq!(by_axes, Chart::from_corners(from, [a, a + u, a + v]));
         assert_eq!(by_axes.point(Vec2::new(2.0, -1.0)), a + 2.0 * u - v - from);
-        assert_eq!(by_axes.volume(), (a - from).dot(u.cross(v)).into());
+        assert_eq!(by_axes.volume(), f64::from((a - from).dot(u.cross(v))));
         assert_eq!(Chart::from_axes(a + u, a, u, v).volume(), 0.0);
     }
 }
