@@ -85,7 +85,7 @@
 //!
 //! # Features
 //!
-//! None is on by default. `build` makes trees and tables from owned scenes (std), `load` reads scene
+//! None is on by default. `bytes` borrows scenes from bytes. `build` makes trees and tables from owned scenes (std), `load` reads scene
 //! files and meshes and has the built-in scenes (std, implies `build`). `small` makes less code, which takes
 //! longer, for firmware; the bits of a picture are the same.
 #![no_std]
@@ -116,6 +116,8 @@ pub mod scene;
 pub mod sequence;
 pub mod shape;
 pub mod solid_angle;
+#[cfg(feature = "bytes")]
+pub mod stored;
 pub mod texture;
 pub mod warp;
 

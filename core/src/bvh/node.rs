@@ -33,6 +33,7 @@ pub enum Child {
 /// Bit layout of a slot: `0xffff_ffff` is empty; bit 31 set is a leaf with its count in bits 27–30
 /// and its first primitive in bits 0–26; otherwise the index of a node.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "bytes", derive(bytemuck::Pod, bytemuck::Zeroable))]
 #[repr(C, align(16))]
 pub struct Node {
     /// Lower x, y, z, then upper x, y, z, of the four children.

@@ -20,7 +20,7 @@ mod serialized;
 mod suggest;
 
 pub use error::{LoadError, Position, Problem, Warning};
-pub use export::{ExportError, export_mitsuba, export_rust, rust_source};
+pub use export::{ExportError, export_bytes, export_mitsuba, export_rust, rust_source, scene_bytes};
 pub use files::Files;
 pub use image::{
     Encoding, ImageError, MAX_TEXELS, read_image, read_image_from, read_texels, srgb_to_linear, write_exr,

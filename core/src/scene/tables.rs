@@ -10,6 +10,8 @@ pub const NONE: u32 = u32::MAX;
 
 /// A shape with what it looks like.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "bytes", derive(bytemuck::AnyBitPattern))]
+#[repr(C)]
 pub struct Surface<S> {
     /// Its form.
     pub shape: S,
@@ -26,10 +28,14 @@ pub struct Surface<S> {
 
 /// Shading normals at the three corners of a triangle.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "bytes", derive(bytemuck::Pod, bytemuck::Zeroable))]
+#[repr(transparent)]
 pub struct CornerNormals(pub [Vec3; 3]);
 
 /// Texture coordinates at the three corners of a triangle.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "bytes", derive(bytemuck::Pod, bytemuck::Zeroable))]
+#[repr(transparent)]
 pub struct CornerUvs(pub [Vec2; 3]);
 
 impl CornerUvs {

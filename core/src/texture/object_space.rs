@@ -7,6 +7,8 @@ use glam::{Mat3, Vec2, Vec3};
 /// The space of the unit shape that a shape in the world is an image of: shapes keep no turn about
 /// their own axes, which only textures show.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "bytes", derive(bytemuck::Pod, bytemuck::Zeroable))]
+#[repr(C)]
 pub struct ObjectSpace {
     /// Image of the unit shape's origin, in the world (m).
     pub origin: Vec3,

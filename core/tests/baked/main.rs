@@ -1,4 +1,4 @@
-//! Scenes as Rust source: what is written, that it is the scene that it came from, and what the firmware
+//! Scenes as Rust source and as bytes: what is written, that it is the scene that it came from, and what the firmware
 //! makes of it on the machines that it runs on.
 #![cfg(feature = "load")]
 
@@ -9,6 +9,7 @@ mod picture;
 #[allow(dead_code, unreachable_pub, reason = "a test does not use all that a program may")]
 mod scenes;
 mod sources;
+mod stored;
 
 use halflight::bsdf::{Bsdf, Phong, RoughPlastic};
 use halflight::build::{Description, SceneBuffers};

@@ -31,7 +31,7 @@ pub enum ExportError {
         /// What is wrong with it.
         message: String,
     },
-    /// Something that is not written as Rust source.
+    /// Something that is written neither as Rust source nor as bytes.
     NotBaked {
         /// What it is.
         what: &'static str,
@@ -54,7 +54,9 @@ impl fmt::Display for ExportError {
                 write!(f, "object {object} refers to a material that does not exist")
             }
             Self::Scene { message } => write!(f, "{message}"),
-            Self::NotBaked { what, instead } => write!(f, "{what} is not written as Rust; {instead}"),
+            Self::NotBaked { what, instead } => {
+                write!(f, "{what} is written neither as Rust nor as bytes; {instead}")
+            }
             Self::SurfaceLight { kind } => {
                 write!(f, "a {kind} is among the lights without a surface; make it an object that emits")
             }

@@ -1,11 +1,12 @@
 //! Writes a scene as Mitsuba 3 XML with binary PLY meshes, and pictures as PNG or OpenEXR; or as Rust
-//! source, for programs without files.
+//! source or bytes, for programs without files.
 //!
 //! The XML that is written loads in Mitsuba, and loads here to the same scene, except for what Mitsuba does
 //! not have: surfaces that emit from both sides, the Phong model, and the metallic-roughness model of glTF.
 //! Those are written in the spelling that this crate reads, with a remark.
 
 mod bsdf;
+mod bytes;
 mod error;
 mod file;
 mod names;
@@ -15,6 +16,7 @@ mod rust;
 mod textures;
 mod xml;
 
+pub use bytes::{export_bytes, scene_bytes};
 pub use error::ExportError;
 pub use rust::{export_rust, rust_source};
 

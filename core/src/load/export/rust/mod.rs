@@ -4,7 +4,7 @@
 //! scene of triangles is a `Scene<Triangle, …>`.
 
 mod expression;
-mod narrow;
+pub(super) mod narrow;
 
 use super::{ExportError, write_whole};
 use crate::build::{Description, SceneBuffers};

@@ -96,7 +96,7 @@ impl Narrow {
 }
 
 /// A material without textures.
-fn plain(material: &AnyMaterial<'_>) -> Result<TwoSided<AnyBsdf>, ExportError> {
+pub(in super::super) fn plain(material: &AnyMaterial<'_>) -> Result<TwoSided<AnyBsdf>, ExportError> {
     match material {
         AnyMaterial::Plain(bsdf) => Ok(*bsdf),
         AnyMaterial::Textured(_) => Err(ExportError::NotBaked {
@@ -127,7 +127,7 @@ fn light_name(light: &AnyLight<'_>) -> &'static str {
 }
 
 /// A light, of its own type.
-fn light_expression(light: &AnyLight<'_>) -> Result<String, ExportError> {
+pub(in super::super) fn light_expression(light: &AnyLight<'_>) -> Result<String, ExportError> {
     let refuse = |what, instead| Err(ExportError::NotBaked { what, instead });
     Ok(match light {
         AnyLight::Rectangle(l) => area(l, AnyShape::Rectangle(*l.shape())),
