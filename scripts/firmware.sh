@@ -22,11 +22,14 @@ for_target() {
 }
 
 run() {
-    for_target "$1" build --bin picture
-    # Built already: this is the machine's time.
     export -f for_target
     export root
-    timeout 300 bash -c 'for_target "$1" run --bin picture' run "$1"
+    local program
+    for program in picture stored; do
+        for_target "$1" build --features bytes --bin $program
+        # Built already: this is the machine's time.
+        timeout 300 bash -c 'for_target "$1" run --features bytes --bin "$2"' run "$1" $program
+    done
 }
 
 m4f=thumbv7em-none-eabihf
