@@ -36,7 +36,7 @@ pub(crate) enum Command {
     Render(Box<RenderArgs>),
     /// List the built-in scenes
     Scenes(ScenesArgs),
-    /// Write a scene as Mitsuba 3 XML with its meshes beside it, or as Rust source for firmware
+    /// Write a scene as Mitsuba 3 XML with its meshes beside it, or as Rust source or bytes for firmware
     Export(ExportArgs),
     /// Show what a scene holds, needs and costs
     Inspect(InspectArgs),
@@ -80,7 +80,7 @@ pub(crate) struct ExportArgs {
     #[arg(value_name = "SCENE")]
     pub(crate) scene: PathBuf,
 
-    /// Where to write it [default: the scene's name with .xml or .rs, in this folder]
+    /// Where to write it [default: the scene's name ending in .xml, .rs or .scene, in this folder]
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
 
@@ -99,14 +99,20 @@ pub(crate) enum SceneFormat {
     Xml,
     /// Rust source: constants for a program without files or heap
     Rust,
+    /// Bytes that such a program reads from storage and borrows
+    Bytes,
 }
 
 impl SceneFormat {
+    /// Every one.
+    pub(crate) const ALL: [Self; 3] = [Self::Xml, Self::Rust, Self::Bytes];
+
     /// How the names of such files end.
     pub(crate) const fn extension(self) -> &'static str {
         match self {
             Self::Xml => "xml",
             Self::Rust => "rs",
+            Self::Bytes => "scene",
         }
     }
 }
