@@ -5,7 +5,6 @@
 //! few, are taken out into room that the program has.
 //!
 //! ```no_run
-//! use halflight::scene::BakedError;
 //! use halflight::stored::{Aligned, NO_LIGHT, NO_MATERIAL, StoredError, StoredScene};
 //!
 //! // Or what was read from a card; a reader of storage aligns its buffer the same way.
