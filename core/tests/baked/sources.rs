@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 use halflight::Rgb;
-use halflight::bsdf::{AnyBsdf, GgxConductor, Lambert, Phong, RoughPlastic, TwoSided};
+use halflight::bsdf::{AnyBsdf, GgxConductor, Lambert, MetallicRoughness, Phong, RoughPlastic, TwoSided};
 use halflight::build::{Description, Emission, Geometry, Material, MaterialTextures, Mesh, Object};
 use halflight::light::{AnyLight, Constant, Directional, DistantDisk, Point, Spot};
 use halflight::load::builtin::builtin;
@@ -57,10 +57,12 @@ fn models() -> [TwoSided<AnyBsdf>; 4] {
     let copper = GgxConductor::anisotropic(Rgb::WHITE, [0.2, 0.4]).unwrap();
     let copper = copper.with_index(Rgb::new(0.2, 0.92, 1.1), Rgb::new(3.9, 2.45, 2.14)).unwrap();
     let plastic = RoughPlastic::new(0.1, 1.5).unwrap().with_diffuse(Rgb::new(0.6, 0.2, 0.1)).unwrap();
+    let painted = MetallicRoughness::new(Rgb::new(0.7, 0.5, 0.2), 0.4, 0.3).unwrap();
+    let painted = AnyBsdf::MetallicRoughness(painted);
     [
         TwoSided { front: AnyBsdf::Phong(phong), back: Some(matte) },
         TwoSided::both(AnyBsdf::GgxConductor(copper)),
-        TwoSided::front_only(AnyBsdf::RoughPlastic(plastic.with_nonlinear(true))),
+        TwoSided { front: AnyBsdf::RoughPlastic(plastic.with_nonlinear(true)), back: Some(painted) },
         TwoSided::both(matte),
     ]
 }

@@ -164,7 +164,7 @@ pub static MATERIALS: [Material; 8] = [
     TwoSided::both(AnyBsdf::Lambert(Lambert::baked(Rgb::new(0.0, 0.0, 0.0)))),
     TwoSided { front: AnyBsdf::Phong(Phong::baked(Rgb::new(0.3, 0.3, 0.3), Rgb::new(0.5, 0.4, 0.3), 20.0, 0.57142866)), back: Some(AnyBsdf::Lambert(Lambert::baked(Rgb::new(0.1, 0.7, 0.3)))) },
     TwoSided::both(AnyBsdf::GgxConductor(GgxConductor::baked(Rgb::new(1.0, 1.0, 1.0), [0.2, 0.4], Some((Rgb::new(0.2, 0.92, 1.1), Rgb::new(3.9, 2.45, 2.14)))))),
-    TwoSided::front_only(AnyBsdf::RoughPlastic(RoughPlastic::baked([0.6, 0.2, 0.1, 1.0, 1.0, 1.0, 0.1, 1.5, 1.0, 0.12690005, 0.031804428, 0.014973403, 0.5518439, 0.040000003, 0.7692308, 0.1, 1.3797296, 0.57188797, -0.12566687, 0.21457033, -0.06963266, -1.1715865, 12.338036, -30.894037, 15.233644, 23.467793, -19.118814]))),
+    TwoSided { front: AnyBsdf::RoughPlastic(RoughPlastic::baked([0.6, 0.2, 0.1, 1.0, 1.0, 1.0, 0.1, 1.5, 1.0, 0.12690005, 0.031804428, 0.014973403, 0.5518439, 0.040000003, 0.7692308, 0.1, 1.3797296, 0.57188797, -0.12566687, 0.21457033, -0.06963266, -1.1715865, 12.338036, -30.894037, 15.233644, 23.467793, -19.118814])), back: Some(AnyBsdf::MetallicRoughness(MetallicRoughness::baked(Rgb::new(0.7, 0.5, 0.2), 0.4, 0.3))) },
     TwoSided::both(AnyBsdf::Lambert(Lambert::baked(Rgb::new(0.1, 0.7, 0.3)))),
 ];
 
