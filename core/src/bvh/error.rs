@@ -1,6 +1,5 @@
 //! Checking a tree once, so that no query needs to.
 
-use super::STACK;
 use super::node::{Child, Node, WIDTH};
 use core::fmt;
 
@@ -42,6 +41,8 @@ pub enum BvhError {
     TooDeep {
         /// Entries that it could need.
         needed: usize,
+        /// Entries that there are.
+        available: usize,
     },
 }
 
@@ -58,8 +59,8 @@ impl fmt::Display for BvhError {
             Self::NotANumber { node } => write!(f, "node {node} has a bound that is not a number"),
             Self::Shared { node } => write!(f, "the tree reaches a node twice (seen at node {node})"),
             Self::Unreachable { reached } => write!(f, "only {reached} nodes can be reached from the first"),
-            Self::TooDeep { needed } => {
-                write!(f, "the tree needs a stack of {needed} entries; queries have {}", STACK)
+            Self::TooDeep { needed, available } => {
+                write!(f, "the tree needs a stack of {needed} entries; queries have {available}")
             }
         }
     }
@@ -72,37 +73,43 @@ impl core::error::Error for BvhError {}
 /// A ray visits the children of a node in any order, and each may wait on the stack while another
 /// is walked: a node with `k` children needs `k − 1` entries more than are waiting when it is
 /// reached. More visits than nodes mean that a node is shared or its own descendant.
-pub(super) fn check(nodes: &[Node], primitives: usize) -> Result<usize, BvhError> {
-    // One more than a query: the child that is walked next waits here too.
-    let mut stack = [(0_u32, 0_u32); STACK + 1];
-    let (mut height, mut visits, mut needed) = (1, 0, 0);
-    while let Some(&(index, waiting)) = stack.get(usize::wrapping_sub(height, 1)) {
-        height -= 1;
-        let index = index as usize;
+pub(super) fn check<const STACK: usize>(nodes: &[Node], primitives: usize) -> Result<usize, BvhError> {
+    let mut stack = [(0_u32, 0_u32); STACK];
+    let (mut height, mut visits, mut needed) = (0_usize, 0, 0);
+    let mut current = (0, 0);
+    loop {
+        let (index, waiting) = (current.0 as usize, current.1 as usize);
         let Some(node) = nodes.get(index) else { return Err(BvhError::NodeOutOfRange { node: index }) };
         visits += 1;
         if visits > nodes.len() {
             return Err(BvhError::Shared { node: index });
         }
         let children = (0..WIDTH).filter(|&slot| node.child(slot) != Child::Empty).count();
-        let below = waiting as usize + children.saturating_sub(1);
+        let below = waiting + children.saturating_sub(1);
         needed = needed.max(below);
+        let too_deep = BvhError::TooDeep { needed: below, available: STACK };
         if below > STACK {
-            return Err(BvhError::TooDeep { needed: below });
+            return Err(too_deep);
         }
+        let mut next = None;
         for slot in 0..WIDTH {
             check_slot(node, slot, index, nodes.len(), primitives)?;
-            if let Child::Node(child) = node.child(slot) {
-                // In range: what waits here is among the `below` of the worst ray, plus one.
-                let Some(place) = stack.get_mut(height) else {
-                    return Err(BvhError::TooDeep { needed: below });
-                };
-                *place = (child, below as u32);
+            if let Child::Node(child) = node.child(slot)
+                && let Some(waits) = next.replace((child, below as u32))
+            {
+                // In range: what waits here is among the `below` of the worst ray.
+                *stack.get_mut(height).ok_or(too_deep)? = waits;
                 height += 1;
             }
         }
+        // 0 − 1 is beyond the stack, too.
+        let top = height.wrapping_sub(1);
+        current = match next.or_else(|| stack.get(top).copied().inspect(|_| height = top)) {
+            Some(next) => next,
+            None if visits < nodes.len() => return Err(BvhError::Unreachable { reached: visits }),
+            None => return Ok(needed),
+        };
     }
-    if visits < nodes.len() { Err(BvhError::Unreachable { reached: visits }) } else { Ok(needed) }
 }
 
 /// Checks one slot of one node.

@@ -10,7 +10,9 @@ mod slabs;
 pub use error::BvhError;
 pub use node::{Child, MAX_LEAF, MAX_PRIMITIVES, Node, WIDTH};
 
-/// Entries of the traversal stack. [`Bvh::new`] refuses a tree that could need more.
+/// Entries of the traversal stack, unless a program asks for fewer. A tree that could need more is refused.
+///
+/// An entry takes 8 bytes while the nearest hit is looked for, and 4 for any hit.
 pub const STACK: usize = 64;
 
 /// A view of a tree in the caller's slice.
@@ -18,8 +20,10 @@ pub const STACK: usize = 64;
 /// [`Bvh::new`] has checked that child indices are in range, that a query visits each node at most
 /// once, that leaves name existing primitives, that every bound is a number, and that no ray can need
 /// more than [`STACK`] entries. The fields are private so that it stays true.
+///
+/// * `STACK` – entries of the traversal stack: fewer where there is little memory
 #[derive(Debug, Clone, Copy)]
-pub struct Bvh<'a> {
+pub struct Bvh<'a, const STACK: usize = { self::STACK }> {
     nodes: &'a [Node],
     stack_needed: usize,
 }
@@ -30,10 +34,20 @@ impl<'a> Bvh<'a> {
     /// # Errors
     /// When the tree could make a query fail, loop, or miss what it holds; see [`BvhError`].
     pub fn new(nodes: &'a [Node], primitives: usize) -> Result<Self, BvhError> {
+        Self::with_stack(nodes, primitives)
+    }
+}
+
+impl<'a, const STACK: usize> Bvh<'a, STACK> {
+    /// [`Bvh::new`], with a traversal stack of `STACK` entries.
+    ///
+    /// # Errors
+    /// As [`Bvh::new`].
+    pub fn with_stack(nodes: &'a [Node], primitives: usize) -> Result<Self, BvhError> {
         if primitives > MAX_PRIMITIVES {
             return Err(BvhError::TooManyPrimitives { primitives });
         }
-        let stack_needed = if nodes.is_empty() { 0 } else { error::check(nodes, primitives)? };
+        let stack_needed = if nodes.is_empty() { 0 } else { error::check::<STACK>(nodes, primitives)? };
         Ok(Self { nodes, stack_needed })
     }
 

@@ -3,9 +3,9 @@
 //! [`Bvh::new`] has checked what indices and the stack are asked for here; `get` instead of an index costs
 //! the same comparison, and a program without panics can be linked.
 
+use super::Bvh;
 use super::node::{Child, WIDTH, decode};
 use super::slabs::{Entered, Slabs};
-use super::{Bvh, STACK};
 use crate::geom::PreparedRay;
 
 /// A child that waits, with the distance at which the ray enters it.
@@ -15,7 +15,7 @@ struct Waiting {
     near: f32,
 }
 
-impl Bvh<'_> {
+impl<const STACK: usize> Bvh<'_, STACK> {
     /// The nearest hit with `t < t_max`.
     ///
     /// `meet(primitive, t_max)` answers for one primitive with the hit's distance and whatever
@@ -118,7 +118,7 @@ impl Bvh<'_> {
 
 /// Returns the child entered first and lets the others wait, the farthest at the bottom.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn nearest_first(
+fn nearest_first<const STACK: usize>(
     slots: &[u32; WIDTH],
     entered: &Entered,
     stack: &mut [Waiting; STACK],

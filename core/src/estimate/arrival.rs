@@ -53,9 +53,9 @@ impl Arrival<'_> {
     ///
     /// * `wo` – unit direction to the viewer
     #[inline]
-    pub fn each_ray<S: Shape, L: Emitter, M: Material>(
+    pub fn each_ray<S: Shape, L: Emitter, M: Material, const STACK: usize>(
         &self,
-        scene: &Scene<'_, S, L, M>,
+        scene: &Scene<'_, S, L, M, STACK>,
         at: &Interaction,
         wo: Vec3,
         sequence: &mut impl Sequence,
@@ -86,9 +86,9 @@ impl Arrival<'_> {
 
     /// One sample of one light.
     #[expect(clippy::too_many_arguments, reason = "what a sample depends on, once")]
-    fn toward<S: Shape, L: Emitter, M: Material>(
+    fn toward<S: Shape, L: Emitter, M: Material, const STACK: usize>(
         &self,
-        scene: &Scene<'_, S, L, M>,
+        scene: &Scene<'_, S, L, M, STACK>,
         at: &Interaction,
         wo: Vec3,
         receiver: &Receiver,
@@ -115,9 +115,9 @@ impl Arrival<'_> {
 
 impl Estimator for Arrival<'_> {
     #[inline]
-    fn observe<S: Shape, L: Emitter, M: Material>(
+    fn observe<S: Shape, L: Emitter, M: Material, const STACK: usize>(
         &self,
-        scene: &Scene<'_, S, L, M>,
+        scene: &Scene<'_, S, L, M, STACK>,
         ray: &Ray,
         reach: f32,
         sequence: &mut impl Sequence,

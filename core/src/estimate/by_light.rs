@@ -59,8 +59,8 @@ impl<D> ByLight<D> {
 impl<D: StaticDensity> ByLight<D> {
     /// One sample of the light with that index.
     #[inline]
-    fn toward<S: Shape, L: Emitter, M: Material>(
-        scene: &Scene<'_, S, L, M>,
+    fn toward<S: Shape, L: Emitter, M: Material, const STACK: usize>(
+        scene: &Scene<'_, S, L, M, STACK>,
         shading: &Shading<'_, M::Bsdf>,
         (index, light): (usize, &L),
         u: [f32; 2],
@@ -78,9 +78,9 @@ impl<D: StaticDensity> ByLight<D> {
 
 impl<D: StaticDensity> Estimator for ByLight<D> {
     #[inline]
-    fn observe<S: Shape, L: Emitter, M: Material>(
+    fn observe<S: Shape, L: Emitter, M: Material, const STACK: usize>(
         &self,
-        scene: &Scene<'_, S, L, M>,
+        scene: &Scene<'_, S, L, M, STACK>,
         ray: &Ray,
         reach: f32,
         sequence: &mut impl Sequence,

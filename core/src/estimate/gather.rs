@@ -15,9 +15,9 @@ use crate::shape::Shape;
 use glam::Vec3;
 
 /// A surface point that is looked at, and how its light is estimated.
-pub(super) struct Gather<'g, S, L, M: Material> {
+pub(super) struct Gather<'g, S, L, M: Material, const STACK: usize> {
     direct: &'g Direct<'g>,
-    scene: &'g Scene<'g, S, L, M>,
+    scene: &'g Scene<'g, S, L, M, STACK>,
     shading: &'g Shading<'g, M::Bsdf>,
     plan: Plan,
 }
@@ -50,11 +50,11 @@ impl Plan {
     }
 }
 
-impl<'g, S: Shape, L: Emitter, M: Material> Gather<'g, S, L, M> {
+impl<'g, S: Shape, L: Emitter, M: Material, const STACK: usize> Gather<'g, S, L, M, STACK> {
     #[inline]
     pub(super) fn new(
         direct: &'g Direct<'g>,
-        scene: &'g Scene<'g, S, L, M>,
+        scene: &'g Scene<'g, S, L, M, STACK>,
         shading: &'g Shading<'g, M::Bsdf>,
     ) -> Self {
         let plan = Plan::new(direct, shading.bsdf().is_diffuse(), scene.has_light_to_meet());

@@ -46,9 +46,9 @@ pub trait Estimator {
     ///
     /// `sequence` has been turned to the sample; the camera has used its [`crate::sequence::Dimension::Film`].
     #[inline]
-    fn sample<S: Shape, L: Emitter, M: Material>(
+    fn sample<S: Shape, L: Emitter, M: Material, const STACK: usize>(
         &self,
-        scene: &Scene<'_, S, L, M>,
+        scene: &Scene<'_, S, L, M, STACK>,
         ray: &Ray,
         reach: f32,
         sequence: &mut impl Sequence,
@@ -57,9 +57,9 @@ pub trait Estimator {
     }
 
     /// The same sample, while `observer` looks on.
-    fn observe<S: Shape, L: Emitter, M: Material>(
+    fn observe<S: Shape, L: Emitter, M: Material, const STACK: usize>(
         &self,
-        scene: &Scene<'_, S, L, M>,
+        scene: &Scene<'_, S, L, M, STACK>,
         ray: &Ray,
         reach: f32,
         sequence: &mut impl Sequence,
@@ -78,9 +78,9 @@ pub enum AnyEstimator<'a> {
 
 impl Estimator for AnyEstimator<'_> {
     #[inline]
-    fn observe<S: Shape, L: Emitter, M: Material>(
+    fn observe<S: Shape, L: Emitter, M: Material, const STACK: usize>(
         &self,
-        scene: &Scene<'_, S, L, M>,
+        scene: &Scene<'_, S, L, M, STACK>,
         ray: &Ray,
         reach: f32,
         sequence: &mut impl Sequence,

@@ -30,9 +30,9 @@ impl Default for Occlusion {
 
 impl Estimator for Occlusion {
     #[inline]
-    fn observe<S: Shape, L: Emitter, M: Material>(
+    fn observe<S: Shape, L: Emitter, M: Material, const STACK: usize>(
         &self,
-        scene: &Scene<'_, S, L, M>,
+        scene: &Scene<'_, S, L, M, STACK>,
         ray: &Ray,
         reach: f32,
         sequence: &mut impl Sequence,

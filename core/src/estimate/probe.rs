@@ -55,9 +55,9 @@ impl Probe<'_> {
     ///
     /// * `from` – a point that [`Shape::surface_point`] gave, or any point with `error` zero in free space
     /// * `sequence` – asked for the samples of pixel 0
-    pub fn irradiance<S: Shape, L: Emitter, M: Material>(
+    pub fn irradiance<S: Shape, L: Emitter, M: Material, const STACK: usize>(
         &self,
-        scene: &Scene<'_, S, L, M>,
+        scene: &Scene<'_, S, L, M, STACK>,
         from: &SurfacePoint,
         sequence: &mut impl Sequence,
     ) -> Irradiance {
@@ -84,9 +84,9 @@ impl Probe<'_> {
     ///
     /// * `from` – as for [`Probe::irradiance`]
     /// * `light` – its index
-    pub fn visibility<S: Shape, L: Emitter, M: Material>(
+    pub fn visibility<S: Shape, L: Emitter, M: Material, const STACK: usize>(
         &self,
-        scene: &Scene<'_, S, L, M>,
+        scene: &Scene<'_, S, L, M, STACK>,
         from: &SurfacePoint,
         light: usize,
         sequence: &mut impl Sequence,
@@ -111,9 +111,9 @@ impl Probe<'_> {
     /// What arrives along a ray from within `reach` (m), with its variance (W m⁻² sr⁻¹).
     ///
     /// * `sequence` – asked for the samples of pixel 0
-    pub fn radiance<S: Shape, L: Emitter, M: Material>(
+    pub fn radiance<S: Shape, L: Emitter, M: Material, const STACK: usize>(
         &self,
-        scene: &Scene<'_, S, L, M>,
+        scene: &Scene<'_, S, L, M, STACK>,
         estimator: &impl Estimator,
         (ray, reach): (&Ray, f32),
         sequence: &mut impl Sequence,

@@ -72,7 +72,17 @@ impl<'a, S: Shape, L: Emitter, M: Material> Scene<'a, S, L, M> {
     /// When an entry is not what the checking constructors accept, or the tree or the tables do not fit
     /// together.
     pub fn baked(nodes: &'a [Node], tables: Tables<'a, S, L, M>) -> Result<Self, BakedError> {
-        let bvh = Bvh::new(nodes, tables.surfaces.len()).map_err(BakedError::Bvh)?;
+        Self::baked_with_stack(nodes, tables)
+    }
+}
+
+impl<'a, S: Shape, L: Emitter, M: Material, const STACK: usize> Scene<'a, S, L, M, STACK> {
+    /// [`Scene::baked`], with a traversal stack of `STACK` entries, as in [`Bvh`].
+    ///
+    /// # Errors
+    /// As [`Scene::baked`], and when the tree needs more.
+    pub fn baked_with_stack(nodes: &'a [Node], tables: Tables<'a, S, L, M>) -> Result<Self, BakedError> {
+        let bvh = Bvh::with_stack(nodes, tables.surfaces.len()).map_err(BakedError::Bvh)?;
         let scene = Self::new(bvh, tables).map_err(BakedError::Scene)?;
         for (surface, entry) in tables.surfaces.iter().enumerate() {
             entry.shape.check().map_err(|source| BakedError::Shape { surface, source })?;

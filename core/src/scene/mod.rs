@@ -22,9 +22,11 @@ use glam::{Vec2, Vec3};
 const SHADOW_REACH: f32 = 1.0 - 1e-4;
 
 /// A scene: its tree and its tables.
+///
+/// * `STACK` – entries of the traversal stack, as in [`Bvh`]
 #[derive(Debug)]
-pub struct Scene<'a, S, L, M> {
-    bvh: Bvh<'a>,
+pub struct Scene<'a, S, L, M, const STACK: usize = { crate::bvh::STACK }> {
+    bvh: Bvh<'a, STACK>,
     tables: Tables<'a, S, L, M>,
     first_environment: usize,
     has_delta_light: bool,
@@ -32,13 +34,13 @@ pub struct Scene<'a, S, L, M> {
 }
 
 // Not derived: a scene is copied as a view, whatever it is generic over.
-impl<S, L, M> Clone for Scene<'_, S, L, M> {
+impl<S, L, M, const STACK: usize> Clone for Scene<'_, S, L, M, STACK> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<S, L, M> Copy for Scene<'_, S, L, M> {}
+impl<S, L, M, const STACK: usize> Copy for Scene<'_, S, L, M, STACK> {}
 
 /// The scene that holds any shape, light and material.
 pub type AnyScene<'a> = Scene<'a, AnyShape, AnyLight<'a>, AnyMaterial<'a>>;
@@ -75,13 +77,13 @@ impl Interaction {
     }
 }
 
-impl<'a, S: Shape, L: Emitter, M: Material> Scene<'a, S, L, M> {
+impl<'a, S: Shape, L: Emitter, M: Material, const STACK: usize> Scene<'a, S, L, M, STACK> {
     /// Borrows the tables of a scene. Primitive `i` of the tree is `surfaces[i]`.
     ///
     /// # Errors
     /// When a surface names a missing entry, or a light that surrounds the scene is not among the last.
     /// That the tree fits the surfaces is [`Bvh::new`]'s business, to which their number has been told.
-    pub fn new(bvh: Bvh<'a>, tables: Tables<'a, S, L, M>) -> Result<Self, SceneError> {
+    pub fn new(bvh: Bvh<'a, STACK>, tables: Tables<'a, S, L, M>) -> Result<Self, SceneError> {
         tables.check_surfaces()?;
         Ok(Self {
             bvh,
@@ -94,7 +96,7 @@ impl<'a, S: Shape, L: Emitter, M: Material> Scene<'a, S, L, M> {
 
     /// The tree.
     #[must_use]
-    pub fn bvh(&self) -> &Bvh<'a> {
+    pub fn bvh(&self) -> &Bvh<'a, STACK> {
         &self.bvh
     }
 
@@ -138,7 +140,7 @@ impl<'a, S: Shape, L: Emitter, M: Material> Scene<'a, S, L, M> {
 
     /// The lights that surround the scene, each with its index.
     #[inline]
-    pub fn environments(&self) -> impl Iterator<Item = (usize, &'a L)> + use<'a, S, L, M> {
+    pub fn environments(&self) -> impl Iterator<Item = (usize, &'a L)> + use<'a, S, L, M, STACK> {
         let first = self.first_environment;
         self.tables
             .lights

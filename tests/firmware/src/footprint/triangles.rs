@@ -17,7 +17,10 @@ static LIGHTS: [AreaLight<Rectangle>; 1] = [AreaLight::baked(
     Sides::Front,
 )];
 
-type Triangles = Scene<'static, Triangle, AreaLight<Rectangle>, TwoSided<Lambert>>;
+/// Entries of the traversal stack: enough for the trees of thousands of triangles.
+const STACK: usize = 32;
+
+type Triangles = Scene<'static, Triangle, AreaLight<Rectangle>, TwoSided<Lambert>, STACK>;
 
 /// One pixel, from 64 samples by light.
 #[inline(never)]
@@ -28,7 +31,7 @@ pub fn run() {
         materials: black_box(&sky::MATERIALS[..]),
         ..Tables::EMPTY
     };
-    let scene: Result<Triangles, _> = Scene::baked(black_box(&sky::NODES[..]), tables);
+    let scene: Result<Triangles, _> = Scene::baked_with_stack(black_box(&sky::NODES[..]), tables);
     let Ok(scene) = scene else { return };
     let mut sequence = Random::<rand_pcg::Pcg32>::new(1);
     let estimator = ByLight::<ByArea>::new();
