@@ -67,7 +67,9 @@ impl LitTexels {
     fn range(&self, corners: [[f32; 2]; 3], axis: usize) -> Option<[usize; 2]> {
         let size = self.size[axis];
         let places = corners.map(|corner| f64::from(corner[axis]) * size as f64);
-        let finite = places.iter().all(|place| place.abs() < 1e9);
+        if !places.iter().all(|place| place.abs() < 1e9) {
+            return None;
+        }
         let low = places.iter().fold(f64::INFINITY, |a, b| a.min(*b));
         let high = places.iter().fold(f64::NEG_INFINITY, |a, b| a.max(*b));
         // Half a texel for the blend with neighbours, the other half for roundings.
@@ -80,7 +82,7 @@ impl LitTexels {
             }
             Wrap::Mirror => {}
         }
-        (finite && low >= 0 && high <= size).then_some([low as usize, high as usize])
+        (low >= 0 && high <= size).then_some([low as usize, high as usize])
     }
 }
 
