@@ -5,6 +5,7 @@ use super::fresnel::Conductor;
 use super::microfacet::{Ggx, MIN_ALPHA};
 use super::{Bsdf, BsdfError, BsdfSample};
 use crate::Rgb;
+use crate::num::PI;
 use glam::Vec3;
 
 /// A rough conductor with GGX microfacets: `f_r = R F D G1(ω_o) G1(ω_i) / (4 cos θ_o cos θ_i)`. Without
@@ -125,6 +126,14 @@ impl Bsdf for GgxConductor {
     #[inline]
     fn pdf_solid_angle(&self, wo: Vec3, wi: Vec3) -> f32 {
         Ggx::half(wo, wi).map_or(0.0, |h| self.facets.reflection_pdf(wo, h))
+    }
+
+    /// That which the microfacets' normals fill, `π αₓ αᵧ`. The directions fill four times as much, seen from
+    /// above, and less at a slant.
+    #[inline]
+    fn lobe_solid_angle(&self) -> f32 {
+        let [x, y] = self.alpha();
+        PI * x * y
     }
 
     fn albedo(&self) -> Rgb {

@@ -4,7 +4,7 @@ use super::error::check_reflectance;
 use super::microfacet::{Ggx, MIN_ALPHA};
 use super::{Bsdf, BsdfError, BsdfSample};
 use crate::Rgb;
-use crate::num::{self, FRAC_1_PI};
+use crate::num::{self, FRAC_1_PI, PI};
 use crate::warp;
 use glam::Vec3;
 
@@ -146,6 +146,13 @@ impl Bsdf for MetallicRoughness {
         let Some(h) = Ggx::half(wo, wi) else { return 0.0 };
         let specular = self.specular_pmf(wo);
         specular * self.facets().reflection_pdf(wo, h) + (1.0 - specular) * warp::cosine_hemisphere_pdf(wi.z)
+    }
+
+    /// As that of [`super::GgxConductor`].
+    #[inline]
+    fn lobe_solid_angle(&self) -> f32 {
+        let [x, y] = self.facets().alpha();
+        PI * x * y
     }
 
     /// What is reflected of light along the normal.

@@ -59,6 +59,13 @@ pub trait Bsdf: Copy {
         false
     }
 
+    /// Solid angle of its narrowest lobe, roughly (sr): within a light that fills less, the model hardly
+    /// changes, and drawing directions toward that light is as good as drawing them from the model. 0 where
+    /// nothing is known.
+    fn lobe_solid_angle(&self) -> f32 {
+        0.0
+    }
+
     /// True when it matters how the local frame is turned about the normal: `x` must then be along the
     /// surface's tangent.
     #[inline]
@@ -131,6 +138,11 @@ impl Bsdf for AnyBsdf {
     #[inline]
     fn is_diffuse(&self) -> bool {
         each_bsdf!(self, b => b.is_diffuse())
+    }
+
+    #[inline]
+    fn lobe_solid_angle(&self) -> f32 {
+        each_bsdf!(self, b => b.lobe_solid_angle())
     }
 
     #[inline]

@@ -4,7 +4,7 @@ use super::error::check_reflectance;
 use super::{Bsdf, BsdfError, BsdfSample};
 use crate::Rgb;
 use crate::geom::Frame;
-use crate::num::FRAC_1_PI;
+use crate::num::{FRAC_1_PI, PI};
 use crate::warp;
 use glam::Vec3;
 
@@ -114,6 +114,12 @@ impl Bsdf for Phong {
         }
         let lobe = warp::power_cosine_pdf(Self::one_minus_cos_alpha(wo, wi), self.exponent);
         self.specular_pmf * lobe + (1.0 - self.specular_pmf) * warp::cosine_hemisphere_pdf(wi.z)
+    }
+
+    /// That over which `cosⁿ α`, put together, is 1: `2π / (n + 1)`.
+    #[inline]
+    fn lobe_solid_angle(&self) -> f32 {
+        2.0 * PI / (self.exponent + 1.0)
     }
 
     fn albedo(&self) -> Rgb {

@@ -6,7 +6,7 @@ use super::microfacet::Ggx;
 use super::transmittance::{Transmittance, internal_reflectance};
 use super::{Bsdf, BsdfError, BsdfSample};
 use crate::Rgb;
-use crate::num::{self, FRAC_1_PI};
+use crate::num::{self, FRAC_1_PI, PI};
 use crate::warp;
 use glam::Vec3;
 
@@ -232,6 +232,12 @@ impl Bsdf for RoughPlastic {
         let Some(h) = Ggx::half(wo, wi) else { return 0.0 };
         let specular = self.specular_pmf(wo);
         specular * self.facets.reflection_pdf(wo, h) + (1.0 - specular) * warp::cosine_hemisphere_pdf(wi.z)
+    }
+
+    /// As that of [`super::GgxConductor`].
+    #[inline]
+    fn lobe_solid_angle(&self) -> f32 {
+        PI * self.alpha() * self.alpha()
     }
 
     /// What is reflected of light along the normal.

@@ -66,6 +66,12 @@ impl<B: Bsdf> Bsdf for TwoSided<B> {
     }
 
     #[inline]
+    fn lobe_solid_angle(&self) -> f32 {
+        let front = self.front.lobe_solid_angle();
+        self.back.as_ref().map_or(front, |back| front.min(back.lobe_solid_angle()))
+    }
+
+    #[inline]
     fn needs_tangent(&self) -> bool {
         self.front.needs_tangent() || self.back.as_ref().is_some_and(Bsdf::needs_tangent)
     }

@@ -29,7 +29,8 @@ pub enum Technique {
     Bsdf,
     /// Both, weighted.
     Mis(Heuristic),
-    /// What each shading point requires: by light where the BSDF is diffuse, both elsewhere.
+    /// What each shading point requires: by light where the BSDF is diffuse, or changes little within each
+    /// light; both elsewhere.
     Auto(Heuristic),
     /// On diffuse points, the unshadowed answer in closed form less an estimate of its blocked part:
     /// no noise where nothing is in the way. A sample may be negative; the expectation is not.
