@@ -259,6 +259,16 @@ pub(crate) mod is_refused {
     }
 
     #[test]
+    fn a_tree_deeper_than_the_stack_that_a_program_asks_for() {
+        for down in 0..4 {
+            assert_eq!(Bvh::<8>::with_stack(&deep(8, down), 1).unwrap().stack_needed(), 8);
+            let refused = Bvh::<8>::with_stack(&deep(9, down), 1).unwrap_err();
+            assert!(matches!(refused, BvhError::TooDeep { needed: 9, available: 8 }), "{refused}");
+            assert!(Bvh::<100>::with_stack(&deep(100, down), 1).is_ok());
+        }
+    }
+
+    #[test]
     fn a_box_that_is_not_a_number_by_the_builder() {
         let bad = Aabb { min: Vec3::NAN, max: Vec3::ONE };
         assert!(matches!(build_tree(&[BOX, bad]), Err(BvhError::NotANumber { .. })));
