@@ -160,15 +160,13 @@ impl AdaptiveTile {
         sum / count as f32
     }
 
-    /// Notes a lamp that is seen in pixel (x, y) of the film, if that is in the tile.
+    /// Notes a lamp that is seen in pixel (x, y) of the film, which must be in the tile.
     ///
     /// * `radiance` – of the lamp (W m⁻² sr⁻¹)
     pub(super) fn note_lamp(&mut self, (x, y): (u32, u32), radiance: f32) {
-        let PixelRect { x0, y0, x1, y1 } = self.rect;
-        if (x0..x1).contains(&x) && (y0..y1).contains(&y) {
-            let block = &mut self.blocks[((y - y0) / BLOCK) as usize * SIDE + ((x - x0) / BLOCK) as usize];
-            block.lamp = num::larger(block.lamp, radiance);
-        }
+        let PixelRect { x0, y0, .. } = self.rect;
+        let block = &mut self.blocks[((y - y0) / BLOCK) as usize * SIDE + ((x - x0) / BLOCK) as usize];
+        block.lamp = num::larger(block.lamp, radiance);
     }
 
     /// Works out what may hide in the pixels, now that those of some blocks have `changed`.
@@ -264,7 +262,7 @@ impl<S: Shape, L: Emitter, M: Material, E: super::Estimator, Q: Sequence + Clone
     ) -> u64 {
         let chosen = tile.next(target);
         if tile.fewest_samples() == 0 {
-            each_lamp(self, |pixel, radiance| tile.note_lamp(pixel, radiance));
+            each_lamp(self, tile.rect, |pixel, radiance| tile.note_lamp(pixel, radiance));
         }
         let mut taken = 0;
         for i in (0..SIDE * SIDE).filter(|&i| chosen[i]) {
