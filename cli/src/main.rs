@@ -21,7 +21,7 @@ mod scene;
 mod terminal;
 
 use args::{Command, RenderArgs};
-use commands::{compare, export, inspect, render, scenes, serve, tradeoff};
+use commands::{compare, export, inspect, render, scenes, serve, shell, tradeoff};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -34,6 +34,8 @@ fn main() -> ExitCode {
         Some(Command::Compare(args)) => compare::run(&args),
         Some(Command::Tradeoff(args)) => tradeoff::run(&args),
         Some(Command::Serve(args)) => serve::run(&args),
+        Some(Command::Completions(args)) => shell::completions(&args),
+        Some(Command::Man(args)) => shell::man(&args),
     };
     match result {
         Ok(exit) => exit.into(),

@@ -12,7 +12,7 @@ pub(crate) use tradeoff::TradeoffArgs;
 use clap::builder::Styles;
 use clap::builder::styling::{AnsiColor, Style};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 use halflight::build::Sky;
 use halflight::load::builtin::BUILTIN;
 use std::net::{IpAddr, Ipv4Addr};
@@ -46,6 +46,10 @@ pub(crate) enum Command {
     Tradeoff(TradeoffArgs),
     /// Serve the browser page on this machine
     Serve(ServeArgs),
+    /// Print what makes a shell complete halflight's commands and options
+    Completions(CompletionsArgs),
+    /// Print the manual page, or write those of all commands
+    Man(ManArgs),
 }
 
 /// `halflight scenes`
@@ -179,6 +183,23 @@ pub(crate) struct ServeArgs {
     pub(crate) address: IpAddr,
 }
 
+/// `halflight completions`
+#[derive(Debug, Args)]
+#[command(after_help = COMPLETIONS)]
+pub(crate) struct CompletionsArgs {
+    /// The shell
+    #[arg(value_name = "SHELL", value_enum)]
+    pub(crate) shell: clap_complete::Shell,
+}
+
+/// `halflight man`
+#[derive(Debug, Args)]
+pub(crate) struct ManArgs {
+    /// Write a page for each command into this folder, which must exist
+    #[arg(value_name = "FOLDER")]
+    pub(crate) folder: Option<PathBuf>,
+}
+
 /// Colours of the help.
 const STYLES: Styles = Styles::styled()
     .header(Style::new().bold())
@@ -190,6 +211,12 @@ const STYLES: Styles = Styles::styled()
 const EXIT_CODES: &str = "\
 Exit codes: 0 good, 1 a check failed, 2 misuse or bad input, 130 interrupted.
 NO_COLOR=1 turns colours off. Results go to standard output, everything else to standard error.";
+
+/// Closes the help of `completions`.
+const COMPLETIONS: &str = "\
+bash:  halflight completions bash > ~/.local/share/bash-completion/completions/halflight
+zsh:   halflight completions zsh > FOLDER/_halflight, with FOLDER in $fpath
+fish:  halflight completions fish > ~/.config/fish/completions/halflight.fish";
 
 /// Closes the help of `compare`.
 const MEASURES: &str = "\
@@ -208,6 +235,11 @@ pub(crate) fn parse() -> Option<Command> {
     CommandLine::try_parse().unwrap_or_else(|error| with_hint(error).exit()).command
 }
 
+/// The definition, for what is made from it.
+pub(crate) fn definition() -> clap::Command {
+    CommandLine::command()
+}
+
 /// `halflight scene.xml` and `halflight cornell` are likely slips.
 fn with_hint(mut error: clap::Error) -> clap::Error {
     if let (ErrorKind::InvalidSubcommand, Some(ContextValue::String(word))) =
@@ -224,10 +256,9 @@ fn with_hint(mut error: clap::Error) -> clap::Error {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use clap::CommandFactory;
 
     #[test]
     fn the_definition_is_consistent() {
-        CommandLine::command().debug_assert();
+        definition().debug_assert();
     }
 }

@@ -6,4 +6,5 @@ pub(crate) mod inspect;
 pub(crate) mod render;
 pub(crate) mod scenes;
 pub(crate) mod serve;
+pub(crate) mod shell;
 pub(crate) mod tradeoff;
