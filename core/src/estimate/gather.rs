@@ -10,7 +10,7 @@ use crate::geom::{Ray, offset_origin};
 use crate::light::{Density, Emitter};
 use crate::material::Material;
 use crate::num::PI;
-use crate::scene::Scene;
+use crate::scene::{Interaction, Scene};
 use crate::sequence::{Dimension, Sequence};
 use crate::shape::Shape;
 use glam::Vec3;
@@ -21,6 +21,17 @@ pub(super) struct Gather<'g, S, L, M: Material, const STACK: usize> {
     scene: &'g Scene<'g, S, L, M, STACK>,
     shading: &'g Shading<'g, M::Bsdf>,
     plan: Plan,
+}
+
+/// A direction drawn from a BSDF.
+#[derive(Clone, Copy)]
+pub(super) struct Drawn {
+    /// Unit direction from the point.
+    pub(super) wi: Vec3,
+    /// Its density (sr⁻¹).
+    pub(super) pdf: f32,
+    /// BSDF times cosine (sr⁻¹).
+    pub(super) f_cos: Rgb,
 }
 
 /// What a technique comes down to at one shading point.
@@ -91,14 +102,27 @@ impl<'g, S: Shape, L: Emitter, M: Material, const STACK: usize> Gather<'g, S, L,
     /// Light that the point reflects toward the viewer (W m⁻² sr⁻¹): one sample.
     #[inline]
     pub(super) fn reflected(&self, sequence: &mut impl Sequence, observer: &mut impl Observer) -> Rgb {
+        let mut sum = self.from_lights(sequence, observer);
+        if self.draws_from_bsdf() {
+            sum += self.over_hemisphere(sequence);
+        }
+        sum
+    }
+
+    /// The part of it that directions toward the lights bring.
+    #[inline]
+    pub(super) fn from_lights(&self, sequence: &mut impl Sequence, observer: &mut impl Observer) -> Rgb {
         let mut sum = if self.plan.control { self.unshadowed() } else { Rgb::BLACK };
         if self.plan.light > 0 || self.scene.has_delta_light() {
             sum += self.over_lights(sequence, observer);
         }
-        if self.plan.bsdf > 0 {
-            sum += self.over_hemisphere(sequence);
-        }
         sum
+    }
+
+    /// True where directions from the BSDF bring the rest of it.
+    #[inline]
+    pub(super) fn draws_from_bsdf(&self) -> bool {
+        self.plan.bsdf > 0
     }
 
     /// What a diffuse point reflects when nothing is in the way: `f_r Σ E`, of the lights that have a
@@ -181,31 +205,45 @@ impl<'g, S: Shape, L: Emitter, M: Material, const STACK: usize> Gather<'g, S, L,
     #[cfg_attr(not(feature = "small"), inline)]
     #[cfg_attr(feature = "small", inline(never))]
     fn over_hemisphere(&self, sequence: &mut impl Sequence) -> Rgb {
-        let (shading, draws) = (self.shading, self.plan.bsdf);
+        let draws = self.plan.bsdf;
         let mut sum = Rgb::BLACK;
         for draw in 0..draws {
-            let u = sequence.point(Dimension::Bsdf, draw, draws);
-            let lobe = sequence.choice(Dimension::Bsdf, draw, draws);
-            let Some((wi, pdf)) = shading.sample(u, lobe) else { continue };
-            let Some(reflected) = shading.reflect(wi).filter(|_| shading.is_outside(wi)) else { continue };
-            sum += reflected.f_cos * self.met(wi, pdf) / pdf;
+            let Some(drawn) = self.draw(sequence, draw, draws) else { continue };
+            let hit = self.scene.closest_hit(&self.ray(&drawn), f32::INFINITY);
+            sum += drawn.f_cos * self.met(&drawn, hit.as_ref()) / drawn.pdf;
         }
         sum / draws as f32
     }
 
-    /// The radiance that arrives along `wi`, drawn by the BSDF with density `pdf`, weighted against
-    /// the light samples that draw it too.
+    /// A direction from the BSDF, which is the `draw`-th of so many; `None` where nothing is reflected.
     #[inline]
-    fn met(&self, wi: Vec3, pdf: f32) -> Rgb {
+    pub(super) fn draw(&self, sequence: &mut impl Sequence, draw: u32, draws: u32) -> Option<Drawn> {
+        let u = sequence.point(Dimension::Bsdf, draw, draws);
+        let lobe = sequence.choice(Dimension::Bsdf, draw, draws);
+        let (wi, pdf) = self.shading.sample(u, lobe)?;
+        let reflected = self.shading.reflect(wi).filter(|_| self.shading.is_outside(wi))?;
+        Some(Drawn { wi, pdf, f_cos: reflected.f_cos })
+    }
+
+    /// The ray from the point in a direction.
+    #[inline]
+    pub(super) fn ray(&self, drawn: &Drawn) -> Ray {
+        let at = &self.shading.at.at;
+        Ray::new(offset_origin(at.point, at.error, at.normal, drawn.wi), drawn.wi)
+    }
+
+    /// The radiance that arrives from what the direction meets, weighted against the light samples that
+    /// draw it too.
+    #[inline]
+    pub(super) fn met(&self, drawn: &Drawn, hit: Option<&Interaction>) -> Rgb {
         let Self { direct, scene, shading, plan } = self;
+        let Drawn { wi, pdf, .. } = *drawn;
         let (from, lights) = (&shading.receiver, scene.lights().len());
         let weighted = |incident: Rgb, index: usize, pdf_light: f32| {
             let other = plan.light as f32 * pdf_light * direct.choice.pmf(from, lights, index);
             incident * plan.heuristic.weight(plan.bsdf as f32 * pdf, other)
         };
-        let at = &shading.at.at;
-        let ray = Ray::new(offset_origin(at.point, at.error, at.normal, wi), wi);
-        match scene.closest_hit(&ray, f32::INFINITY) {
+        match hit {
             Some(hit) => scene.lights().get(hit.light as usize).map_or(Rgb::BLACK, |light| {
                 let incident = light.radiance(&hit.at, -wi);
                 if plan.light == 0 || incident.is_black() {
