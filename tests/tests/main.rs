@@ -13,6 +13,7 @@ mod extremes;
 mod invariance;
 mod lights;
 mod outsider;
+mod paths;
 mod pictures;
 mod portals;
 mod properties;

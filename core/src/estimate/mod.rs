@@ -13,6 +13,7 @@ mod lamps;
 mod layers;
 mod observer;
 mod occlusion;
+mod path;
 mod probe;
 mod shading;
 mod stats;
@@ -28,6 +29,7 @@ pub use job::{Job, passes};
 pub use layers::LayeredPixel;
 pub use observer::Observer;
 pub use occlusion::Occlusion;
+pub use path::Path;
 pub use probe::{Irradiance, Probe};
 pub use stats::{Pixel, PixelStats};
 pub use target::Target;
@@ -74,6 +76,8 @@ pub enum AnyEstimator<'a> {
     Direct(Direct<'a>),
     /// Ambient occlusion.
     Occlusion(Occlusion),
+    /// Direct and indirect light.
+    Path(Path<'a>),
 }
 
 impl Estimator for AnyEstimator<'_> {
@@ -89,6 +93,7 @@ impl Estimator for AnyEstimator<'_> {
         match self {
             Self::Direct(e) => e.observe(scene, ray, reach, sequence, observer),
             Self::Occlusion(e) => e.observe(scene, ray, reach, sequence, observer),
+            Self::Path(e) => e.observe(scene, ray, reach, sequence, observer),
         }
     }
 }

@@ -16,6 +16,8 @@
 //! | place in the pixel | 2, 3 | `Film` |
 //! | point of any other light, one of several draws, BSDF direction | 0, 1 | that dimension |
 //! | which light, which lobe | 2 | the dimension of the point that it goes with |
+//! | whether a path goes on | 2 | that dimension |
+//! | each of these after a bounce | the same | that dimension at that bounce |
 //!
 //! What goes together in one integral over few variables is one point: a penumbra seen through a
 //! pixel, or a light chosen and its point.
@@ -34,6 +36,8 @@ pub use random::Random;
 pub use sobol::Sobol;
 pub use zsobol::ZSobol;
 
+use crate::num;
+
 /// What a draw decides. Each decision has its own, independently scrambled points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Dimension {
@@ -48,6 +52,10 @@ pub enum Dimension {
     Bsdf,
     /// A direction for ambient occlusion.
     Occlusion,
+    /// Whether a path goes on.
+    Roulette,
+    /// Another decision after a bounce, by its number: see [`Dimension::after`].
+    Later(u32),
 }
 
 impl Dimension {
@@ -60,8 +68,19 @@ impl Dimension {
             Self::Bsdf => 1,
             Self::Occlusion => 2,
             Self::Choice => u32::MAX,
+            Self::Roulette => u32::MAX - 1,
+            Self::Later(key) => key,
             Self::Light(light) => 3_u32.wrapping_add(light),
         }
+    }
+
+    /// The same decision after so many bounces of a path: a dimension of its own, whose points meet those
+    /// of all others at random. Each is well spread by itself; before the first bounce it is the
+    /// decision itself.
+    #[inline]
+    #[must_use]
+    pub const fn after(self, bounces: u32) -> Self {
+        if bounces == 0 { self } else { Self::Later(num::hash2(bounces, self.key())) }
     }
 }
 

@@ -82,7 +82,10 @@ mod tests {
     #[test]
     fn a_power_of_two_of_points_fills_every_cell_once() {
         // 256 points: one in each of 16 × 16 cells, and one of 256 choices each.
-        for (dimension, draws) in [(Dimension::Light(0), 1), (Dimension::Light(3), 1), (Dimension::Bsdf, 4)] {
+        let after = Dimension::Light(0).after(3);
+        for (dimension, draws) in
+            [(Dimension::Light(0), 1), (Dimension::Light(3), 1), (Dimension::Bsdf, 4), (after, 1)]
+        {
             let (mut cells, mut choices) = ([0_u32; 256], [0_u32; 256]);
             let mut s = Sobol::new(9);
             for sample in 0..256 / draws {
@@ -117,6 +120,9 @@ mod tests {
             ((5, Dimension::Light(0)), (5, Dimension::Bsdf)),
             ((5, Dimension::Light(1)), (5, Dimension::Light(2))),
             ((5, Dimension::Film), (5, Dimension::Light(0))),
+            ((5, Dimension::Bsdf), (5, Dimension::Bsdf.after(1))),
+            ((5, Dimension::Bsdf.after(1)), (5, Dimension::Light(0).after(1))),
+            ((5, Dimension::Bsdf.after(2)), (5, Dimension::Bsdf.after(3))),
         ] {
             assert!(mean_product(a, b).abs() < bound, "{a:?} {b:?}");
         }
