@@ -47,6 +47,14 @@ impl Filter {
         }
     }
 
+    /// Largest offset from the pixel's centre, along either axis (pixels).
+    const fn reach(&self) -> f32 {
+        match *self {
+            Self::Box { radius } | Self::Tent { radius } => radius,
+            Self::Gaussian { stddev } => 4.01 * stddev,
+        }
+    }
+
     /// The filter's length in pixels, which must be positive and finite.
     const fn extent(&self) -> f32 {
         match *self {
@@ -55,6 +63,9 @@ impl Filter {
         }
     }
 }
+
+/// How far around its pixels a part of the picture is taken to reach (pixels): more than places are rounded.
+const CORNER_SLACK: f32 = 1.0 / 64.0;
 
 /// Inverse of the cumulative tent on [−1, 1].
 #[inline]
@@ -253,6 +264,15 @@ impl Film {
         let across = (x as f32 + 0.5 + dx) / self.width as f32;
         let down = (y as f32 + 0.5 + dy) / self.height as f32;
         (2.0 * across - 1.0, 1.0 - 2.0 * down)
+    }
+
+    /// Four places in the picture, in order around it, between which lie those of all samples of some pixels.
+    pub(crate) fn corners(&self, pixels: PixelRect) -> [(f32, f32); 4] {
+        let reach = self.filter.reach() + CORNER_SLACK;
+        let place = |x: f32, y: f32| (2.0 * x / self.width as f32 - 1.0, 1.0 - 2.0 * y / self.height as f32);
+        let (left, right) = (pixels.x0 as f32 + 0.5 - reach, pixels.x1 as f32 - 0.5 + reach);
+        let (top, bottom) = (pixels.y0 as f32 + 0.5 - reach, pixels.y1 as f32 - 0.5 + reach);
+        [place(left, top), place(right, top), place(right, bottom), place(left, bottom)]
     }
 
     /// The pixel that a place in the picture is in, as [`Film::place`] returns it; `None` outside.

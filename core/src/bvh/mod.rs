@@ -4,6 +4,7 @@
 
 mod error;
 mod node;
+mod overlap;
 mod query;
 mod slabs;
 

@@ -95,6 +95,16 @@ impl Shape for Disk {
         false
     }
 
+    fn is_flat(&self) -> bool {
+        true
+    }
+
+    fn support(&self, origin: Vec3, direction: Vec3) -> f32 {
+        let Planar { centre, axis_u, axis_v } = self.0;
+        let (u, v) = (direction.dot(axis_u), direction.dot(axis_v));
+        direction.dot(centre - origin) + num::sqrt(u * u + v * v)
+    }
+
     #[inline]
     fn surface_point(&self, _ray: &Ray, hit: &ShapeHit) -> SurfacePoint {
         self.0.surface_point(hit.u, hit.v)

@@ -69,6 +69,24 @@ pub trait Shape: Copy {
         self.intersect(ray, reach).is_some()
     }
 
+    /// True for a part of a plane without holes or dents: what is between four of its points belongs to it.
+    fn is_flat(&self) -> bool {
+        false
+    }
+
+    /// The corners of a flat shape that has three or four, in order; of three, the last comes twice.
+    fn outline(&self) -> Option<[Vec3; 4]> {
+        None
+    }
+
+    /// The largest `direction · (x − origin)` of its points `x`, or more: the support function of its hull.
+    ///
+    /// * `direction` – of any length
+    fn support(&self, origin: Vec3, direction: Vec3) -> f32 {
+        let Aabb { min, max } = self.bounds();
+        ((min - origin) * direction).max((max - origin) * direction).element_sum()
+    }
+
     /// The surface point of a hit that [`Shape::intersect`] has found.
     fn surface_point(&self, ray: &Ray, hit: &ShapeHit) -> SurfacePoint;
 
@@ -164,6 +182,18 @@ impl Shape for AnyShape {
     #[inline]
     fn hides_itself(&self, ray: &PreparedRay, reach: f32) -> bool {
         each_shape!(self, s => s.hides_itself(ray, reach))
+    }
+
+    fn is_flat(&self) -> bool {
+        each_shape!(self, s => s.is_flat())
+    }
+
+    fn outline(&self) -> Option<[Vec3; 4]> {
+        each_shape!(self, s => s.outline())
+    }
+
+    fn support(&self, origin: Vec3, direction: Vec3) -> f32 {
+        each_shape!(self, s => s.support(origin, direction))
     }
 
     #[inline]

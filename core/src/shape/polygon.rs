@@ -167,6 +167,10 @@ impl Shape for Polygon {
         false
     }
 
+    fn is_flat(&self) -> bool {
+        true
+    }
+
     #[inline]
     fn surface_point(&self, _ray: &Ray, hit: &ShapeHit) -> SurfacePoint {
         let index = (hit.u as usize).min(self.fan_len() - 1);

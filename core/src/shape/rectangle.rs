@@ -96,6 +96,23 @@ impl Shape for Rectangle {
         false
     }
 
+    fn is_flat(&self) -> bool {
+        true
+    }
+
+    fn outline(&self) -> Option<[Vec3; 4]> {
+        let Planar { centre, axis_u, axis_v } = self.0;
+        Some(
+            [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
+                .map(|(u, v)| centre + axis_u * u + axis_v * v),
+        )
+    }
+
+    fn support(&self, origin: Vec3, direction: Vec3) -> f32 {
+        let Planar { centre, axis_u, axis_v } = self.0;
+        direction.dot(centre - origin) + direction.dot(axis_u).abs() + direction.dot(axis_v).abs()
+    }
+
     #[inline]
     fn surface_point(&self, _ray: &Ray, hit: &ShapeHit) -> SurfacePoint {
         self.0.surface_point(hit.u, hit.v)

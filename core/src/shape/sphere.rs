@@ -112,6 +112,10 @@ impl Shape for Sphere {
         reach > nearest && self.intersect(prepared, reach).is_some()
     }
 
+    fn support(&self, origin: Vec3, direction: Vec3) -> f32 {
+        direction.dot(self.centre - origin) + direction.length() * self.radius
+    }
+
     #[inline]
     fn surface_point(&self, ray: &Ray, hit: &ShapeHit) -> SurfacePoint {
         // Pulled back onto the surface: the error does not depend on the distance of the origin.

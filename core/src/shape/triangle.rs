@@ -153,6 +153,22 @@ impl Shape for Triangle {
         false
     }
 
+    fn is_flat(&self) -> bool {
+        true
+    }
+
+    fn outline(&self) -> Option<[Vec3; 4]> {
+        let [a, b, c] = self.corners();
+        Some([a, b, c, c])
+    }
+
+    fn support(&self, origin: Vec3, direction: Vec3) -> f32 {
+        self.corners()
+            .map(|corner| direction.dot(corner - origin))
+            .into_iter()
+            .fold(f32::NEG_INFINITY, f32::max)
+    }
+
     #[inline]
     fn surface_point(&self, _ray: &Ray, hit: &ShapeHit) -> SurfacePoint {
         self.point(hit.u, hit.v)
