@@ -6,17 +6,19 @@
 //! direction. Over the hemisphere, directions come from the BSDF and meet a light or do not.
 
 use super::gather::Gather;
+use super::known::Knowledge;
 use super::shading::Shading;
-use super::{Estimator, Heuristic, Observer};
+use super::{Estimator, Heuristic, Known, Observer};
 use crate::Rgb;
 use crate::bsdf::Bsdf;
 use crate::choose::LightChoice;
 use crate::geom::Ray;
 use crate::light::{Emitter, SurfaceDensity};
 use crate::material::Material;
-use crate::scene::Scene;
+use crate::scene::{Interaction, NONE, Scene};
 use crate::sequence::Sequence;
 use crate::shape::Shape;
+use glam::{Vec2, Vec3};
 
 /// Which densities are combined.
 ///
@@ -65,6 +67,30 @@ impl Default for Direct<'_> {
     }
 }
 
+impl Direct<'_> {
+    /// What leaves a hit of a camera ray toward its origin: one sample.
+    #[inline]
+    fn leaving<S: Shape, L: Emitter, M: Material, const STACK: usize>(
+        &self,
+        scene: &Scene<'_, S, L, M, STACK>,
+        hit: &Interaction,
+        wo: Vec3,
+        known: impl Knowledge,
+        sequence: &mut impl Sequence,
+        observer: &mut impl Observer,
+    ) -> Rgb {
+        let emitted = scene.emitted(hit, wo);
+        let Some(material) = scene.materials().get(hit.material as usize) else { return emitted };
+        let bsdf = material.at(|| scene.uv(hit));
+        observer.surface(hit, wo, || bsdf.albedo());
+        if bsdf.is_black() {
+            return emitted;
+        }
+        let shading = Shading::new(hit, bsdf, wo, || scene.tangent(hit));
+        emitted + Gather::new(self, scene, &shading, known).reflected(sequence, observer)
+    }
+}
+
 impl Estimator for Direct<'_> {
     #[inline]
     fn observe<S: Shape, L: Emitter, M: Material, const STACK: usize>(
@@ -75,18 +101,43 @@ impl Estimator for Direct<'_> {
         sequence: &mut impl Sequence,
         observer: &mut impl Observer,
     ) -> Rgb {
-        let Some(hit) = scene.closest_hit(ray, reach) else {
-            return scene.radiance_escaping(ray.direction);
-        };
-        let wo = -ray.direction;
-        let emitted = scene.emitted(&hit, wo);
-        let Some(material) = scene.materials().get(hit.material as usize) else { return emitted };
-        let bsdf = material.at(|| scene.uv(&hit));
-        observer.surface(&hit, wo, || bsdf.albedo());
-        if bsdf.is_black() {
-            return emitted;
+        match scene.closest_hit(ray, reach) {
+            Some(hit) => self.leaving(scene, &hit, -ray.direction, (), sequence, observer),
+            None => scene.radiance_escaping(ray.direction),
         }
-        let shading = Shading::new(&hit, bsdf, wo, || scene.tangent(&hit));
-        emitted + Gather::new(self, scene, &shading).reflected(sequence, observer)
+    }
+
+    fn looks_ahead(&self) -> bool {
+        true
+    }
+
+    fn observe_known<S: Shape, L: Emitter, M: Material, const STACK: usize>(
+        &self,
+        scene: &Scene<'_, S, L, M, STACK>,
+        known: Known,
+        ray: &Ray,
+        reach: f32,
+        sequence: &mut impl Sequence,
+        observer: &mut impl Observer,
+    ) -> Rgb {
+        match known.first_hit(scene, ray, reach) {
+            Some(hit) => self.leaving(scene, &hit, -ray.direction, known, sequence, observer),
+            None => scene.radiance_escaping(ray.direction),
+        }
+    }
+
+    fn is_smooth<S: Shape, L: Emitter, M: Material, const STACK: usize>(
+        &self,
+        scene: &Scene<'_, S, L, M, STACK>,
+        known: Known,
+        hit: &Interaction,
+        wo: Vec3,
+    ) -> bool {
+        let Some(material) = scene.materials().get(hit.material as usize) else { return false };
+        if material.is_textured() || hit.light != NONE {
+            return false;
+        }
+        let shading = Shading::new(hit, material.at(|| Vec2::ZERO), wo, || scene.tangent(hit));
+        Gather::new(self, scene, &shading, known).is_smooth()
     }
 }

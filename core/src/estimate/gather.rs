@@ -1,6 +1,7 @@
 //! Gathering the light that arrives at one surface point.
 
 use super::direct::{Direct, Technique};
+use super::known::Knowledge;
 use super::shading::Shading;
 use super::{Heuristic, Observer};
 use crate::Rgb;
@@ -16,10 +17,11 @@ use crate::shape::Shape;
 use glam::Vec3;
 
 /// A surface point that is looked at, and how its light is estimated.
-pub(super) struct Gather<'g, S, L, M: Material, const STACK: usize> {
+pub(super) struct Gather<'g, S, L, M: Material, K, const STACK: usize> {
     direct: &'g Direct<'g>,
     scene: &'g Scene<'g, S, L, M, STACK>,
     shading: &'g Shading<'g, M::Bsdf>,
+    known: K,
     plan: Plan,
 }
 
@@ -41,6 +43,8 @@ struct Plan {
     bsdf: u32,
     heuristic: Heuristic,
     control: bool,
+    /// True where irradiance in closed form takes the place of light samples.
+    closed_form: bool,
 }
 
 impl Plan {
@@ -60,7 +64,9 @@ impl Plan {
         // Where no ray can meet a light, none is sent.
         let bsdf = if light_to_meet { bsdf_samples } else { 0 };
         let control = diffuse && matches!(technique, Technique::Control(_));
-        Self { light, bsdf, heuristic, control }
+        let may_differ = matches!(technique, Technique::Auto(_) | Technique::Control(_));
+        let closed_form = diffuse && bsdf == 0 && may_differ && direct.choice == LightChoice::All;
+        Self { light, bsdf, heuristic, control, closed_form }
     }
 }
 
@@ -87,22 +93,24 @@ fn fills_a_lobe<S: Shape, L: Emitter, M: Material, const STACK: usize>(
     direct.choice != LightChoice::All || scene.lights().iter().any(fills)
 }
 
-impl<'g, S: Shape, L: Emitter, M: Material, const STACK: usize> Gather<'g, S, L, M, STACK> {
+impl<'g, S: Shape, L: Emitter, M: Material, K: Knowledge, const STACK: usize> Gather<'g, S, L, M, K, STACK> {
+    /// * `known` – of the lights at the point
     #[inline]
     pub(super) fn new(
         direct: &'g Direct<'g>,
         scene: &'g Scene<'g, S, L, M, STACK>,
         shading: &'g Shading<'g, M::Bsdf>,
+        known: K,
     ) -> Self {
         let wide = || fills_a_lobe(direct, scene, shading);
         let plan = Plan::new(direct, shading.bsdf().is_diffuse(), wide, scene.has_light_to_meet());
-        Self { direct, scene, shading, plan }
+        Self { direct, scene, shading, known, plan }
     }
 
     /// Light that the point reflects toward the viewer (W m⁻² sr⁻¹): one sample.
     #[inline]
     pub(super) fn reflected(&self, sequence: &mut impl Sequence, observer: &mut impl Observer) -> Rgb {
-        let mut sum = self.from_lights(sequence, observer);
+        let mut sum = self.light_part(sequence, observer);
         if self.draws_from_bsdf() {
             sum += self.over_hemisphere(sequence);
         }
@@ -111,7 +119,7 @@ impl<'g, S: Shape, L: Emitter, M: Material, const STACK: usize> Gather<'g, S, L,
 
     /// The part of it that directions toward the lights bring.
     #[inline]
-    pub(super) fn from_lights(&self, sequence: &mut impl Sequence, observer: &mut impl Observer) -> Rgb {
+    pub(super) fn light_part(&self, sequence: &mut impl Sequence, observer: &mut impl Observer) -> Rgb {
         let mut sum = if self.plan.control { self.unshadowed() } else { Rgb::BLACK };
         if self.plan.light > 0 || self.scene.has_delta_light() {
             sum += self.over_lights(sequence, observer);
@@ -147,6 +155,10 @@ impl<'g, S: Shape, L: Emitter, M: Material, const STACK: usize> Gather<'g, S, L,
         for light in choice.not_chosen(lights) {
             // The best dimension is for the chosen light, where one is chosen.
             let dimension = Dimension::Light(light as u32 + u32::from(chooses));
+            if let Some(reflected) = self.in_closed_form(light, observer) {
+                sum += reflected * draws as f32;
+                continue;
+            }
             for draw in 0..draws {
                 let u = sequence.point(dimension, draw, draws);
                 sum += self.toward(light, 1.0, u, observer);
@@ -165,10 +177,36 @@ impl<'g, S: Shape, L: Emitter, M: Material, const STACK: usize> Gather<'g, S, L,
         sum / draws as f32
     }
 
+    /// What a light brings that nothing hides, without noise, beyond what [`Gather::unshadowed`] has; `None`
+    /// where it is to be sampled.
+    #[inline]
+    fn in_closed_form(&self, index: usize, observer: &mut impl Observer) -> Option<Rgb> {
+        if !(self.known.is_lit(index) && self.plan.closed_form) {
+            return None;
+        }
+        let irradiance = self.scene.lights().get(index)?.unshadowed_irradiance(&self.shading.receiver)?;
+        let reflected = self.shading.diffuse() * irradiance;
+        if !reflected.is_black() {
+            observer.light(true, || reflected.average());
+        }
+        Some(if self.plan.control { Rgb::BLACK } else { reflected })
+    }
+
+    /// True when no sample of the lights is noisy, nor hides anything: what the point reflects is a
+    /// smooth function of where it is.
+    pub(super) fn is_smooth(&self) -> bool {
+        let from = &self.shading.receiver;
+        let is_exact = |(index, light): (usize, &L)| {
+            let closed_form = self.known.is_lit(index) && light.unshadowed_irradiance(from).is_some();
+            closed_form || (light.is_delta() && self.known.is_open(index))
+        };
+        self.plan.closed_form && self.scene.lights().iter().enumerate().all(is_exact)
+    }
+
     /// One sample of the light with that index, chosen with probability `pmf`.
     #[inline]
     fn toward(&self, index: usize, pmf: f32, u: [f32; 2], observer: &mut impl Observer) -> Rgb {
-        let Self { direct, scene, shading, plan } = self;
+        let Self { direct, scene, shading, plan, .. } = self;
         let light = &scene.lights()[index];
         if plan.light == 0 && !light.is_delta() {
             return Rgb::BLACK;
@@ -188,7 +226,8 @@ impl<'g, S: Shape, L: Emitter, M: Material, const STACK: usize> Gather<'g, S, L,
             }
         };
         let arrives = shading.is_outside(sample.wi)
-            && scene.light_visible(&shading.at.at, sample.wi, sample.distance, index);
+            && (self.known.is_open(index)
+                || scene.light_visible(&shading.at.at, sample.wi, sample.distance, index));
         observer.light(arrives, || {
             let pdf = if let Density::SolidAngle(pdf) = sample.density { pdf } else { 1.0 };
             (reflected.f_cos * sample.incident * (1.0 / (pdf * pmf))).average()
@@ -236,7 +275,7 @@ impl<'g, S: Shape, L: Emitter, M: Material, const STACK: usize> Gather<'g, S, L,
     /// draw it too.
     #[inline]
     pub(super) fn met(&self, drawn: &Drawn, hit: Option<&Interaction>) -> Rgb {
-        let Self { direct, scene, shading, plan } = self;
+        let Self { direct, scene, shading, plan, .. } = self;
         let Drawn { wi, pdf, .. } = *drawn;
         let (from, lights) = (&shading.receiver, scene.lights().len());
         let weighted = |incident: Rgb, index: usize, pdf_light: f32| {

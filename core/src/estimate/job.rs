@@ -1,8 +1,10 @@
 //! Rendering a part of a picture.
 
-use super::{DifferenceSums, Estimator, Observer, Pixel};
+use super::{DifferenceSums, Estimator, Pixel};
+use crate::Rgb;
 use crate::camera::Camera;
 use crate::film::{Film, PixelRect};
+use crate::geom::Ray;
 use crate::light::Emitter;
 use crate::material::Material;
 use crate::scene::Scene;
@@ -35,16 +37,22 @@ impl<S: Shape, L: Emitter, M: Material, E: Estimator, Q: Sequence + Clone> Job<'
     ///
     /// Returns what [`super::Convergence::record`] wants to know.
     pub fn render<P: Pixel>(&self, tile: PixelRect, samples: Range<u32>, pixels: &mut [P]) -> DifferenceSums {
-        self.render_part(tile, tile, samples, pixels)
+        self.render_part(tile, tile, samples, pixels, |ray, reach, sequence, pixel| {
+            self.estimator.observe(&self.scene, ray, reach, sequence, pixel)
+        })
     }
 
     /// The same for a part of the tile.
+    ///
+    /// * `observe` – one sample along a ray within a reach
+    #[inline]
     pub(super) fn render_part<P: Pixel>(
         &self,
         tile: PixelRect,
         part: PixelRect,
         samples: Range<u32>,
         pixels: &mut [P],
+        observe: impl Fn(&Ray, f32, &mut Q, &mut P) -> Rgb,
     ) -> DifferenceSums {
         let mut sums = DifferenceSums::default();
         let mut sequence = self.sequence.clone();
@@ -55,7 +63,8 @@ impl<S: Shape, L: Emitter, M: Material, E: Estimator, Q: Sequence + Clone> Job<'
             for (x, pixel) in (part.x0..part.x1).zip(row) {
                 let before = *pixel.stats();
                 for sample in samples.clone() {
-                    let radiance = self.sample(x, y, sample, &mut sequence, pixel);
+                    let (ray, reach) = self.ray(x, y, sample, &mut sequence);
+                    let radiance = observe(&ray, reach, &mut sequence, pixel);
                     pixel.add(radiance);
                 }
                 let after = pixel.stats();
@@ -67,21 +76,13 @@ impl<S: Shape, L: Emitter, M: Material, E: Estimator, Q: Sequence + Clone> Job<'
         sums
     }
 
-    /// One sample of pixel (x, y).
+    /// The ray of a sample of pixel (x, y), and how far it reaches (m).
     #[inline]
-    fn sample(
-        &self,
-        x: u32,
-        y: u32,
-        sample: u32,
-        sequence: &mut Q,
-        observer: &mut impl Observer,
-    ) -> crate::Rgb {
+    fn ray(&self, x: u32, y: u32, sample: u32, sequence: &mut Q) -> (Ray, f32) {
         // The pixel's number does not depend on the crop window.
         sequence.start(y.wrapping_mul(self.film.width()).wrapping_add(x), sample);
         let (px, py) = self.film.place(x, y, sequence.point(Dimension::Film, 0, 1));
-        let (ray, reach) = self.camera.ray(px, py);
-        self.estimator.observe(&self.scene, &ray, reach, sequence, observer)
+        self.camera.ray(px, py)
     }
 }
 

@@ -9,12 +9,14 @@ mod gather;
 mod heuristic;
 mod hidden;
 mod job;
+mod known;
 mod lamps;
 mod layers;
 mod observer;
 mod occlusion;
 mod path;
 mod probe;
+mod refine;
 mod shading;
 mod stats;
 mod target;
@@ -26,6 +28,7 @@ pub use convergence::{Convergence, DifferenceSums, ErrorEstimate};
 pub use direct::{Direct, Technique};
 pub use heuristic::Heuristic;
 pub use job::{Job, passes};
+pub use known::{Known, Met};
 pub use layers::LayeredPixel;
 pub use observer::Observer;
 pub use occlusion::Occlusion;
@@ -38,9 +41,10 @@ use crate::Rgb;
 use crate::geom::Ray;
 use crate::light::Emitter;
 use crate::material::Material;
-use crate::scene::Scene;
+use crate::scene::{Interaction, Scene};
 use crate::sequence::Sequence;
 use crate::shape::Shape;
+use glam::Vec3;
 
 /// Something that can be estimated along a camera ray.
 pub trait Estimator {
@@ -67,6 +71,43 @@ pub trait Estimator {
         sequence: &mut impl Sequence,
         observer: &mut impl Observer,
     ) -> Rgb;
+
+    /// True when it is worth finding out what is known of a part of a picture, for
+    /// [`Estimator::observe_known`].
+    fn looks_ahead(&self) -> bool {
+        false
+    }
+
+    /// One sample, with the same expectation, where something is known of all of them.
+    ///
+    /// * `known` – of the part of the picture that the ray is in
+    fn observe_known<S: Shape, L: Emitter, M: Material, const STACK: usize>(
+        &self,
+        scene: &Scene<'_, S, L, M, STACK>,
+        known: Known,
+        ray: &Ray,
+        reach: f32,
+        sequence: &mut impl Sequence,
+        observer: &mut impl Observer,
+    ) -> Rgb {
+        let _ = known;
+        self.observe(scene, ray, reach, sequence, observer)
+    }
+
+    /// True when [`Estimator::observe_known`] is a smooth function of the place in the picture, and of
+    /// nothing else: so that a few samples will do.
+    ///
+    /// * `hit` – one of the points that are seen, toward the unit direction `wo`
+    fn is_smooth<S: Shape, L: Emitter, M: Material, const STACK: usize>(
+        &self,
+        scene: &Scene<'_, S, L, M, STACK>,
+        known: Known,
+        hit: &Interaction,
+        wo: Vec3,
+    ) -> bool {
+        let _ = (scene, known, hit, wo);
+        false
+    }
 }
 
 /// Any of the estimators, chosen at run time.
@@ -95,5 +136,34 @@ impl Estimator for AnyEstimator<'_> {
             Self::Occlusion(e) => e.observe(scene, ray, reach, sequence, observer),
             Self::Path(e) => e.observe(scene, ray, reach, sequence, observer),
         }
+    }
+
+    fn looks_ahead(&self) -> bool {
+        matches!(self, Self::Direct(_))
+    }
+
+    fn observe_known<S: Shape, L: Emitter, M: Material, const STACK: usize>(
+        &self,
+        scene: &Scene<'_, S, L, M, STACK>,
+        known: Known,
+        ray: &Ray,
+        reach: f32,
+        sequence: &mut impl Sequence,
+        observer: &mut impl Observer,
+    ) -> Rgb {
+        match self {
+            Self::Direct(e) => e.observe_known(scene, known, ray, reach, sequence, observer),
+            other => other.observe(scene, ray, reach, sequence, observer),
+        }
+    }
+
+    fn is_smooth<S: Shape, L: Emitter, M: Material, const STACK: usize>(
+        &self,
+        scene: &Scene<'_, S, L, M, STACK>,
+        known: Known,
+        hit: &Interaction,
+        wo: Vec3,
+    ) -> bool {
+        matches!(self, Self::Direct(e) if e.is_smooth(scene, known, hit, wo))
     }
 }

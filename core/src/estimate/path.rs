@@ -141,8 +141,8 @@ impl Path<'_> {
         }
         let shading = Shading::new(at, bsdf, *wo, || scene.tangent(at));
         let direct = self.lit(bounces);
-        let gather = Gather::new(&direct, scene, &shading);
-        let light = gather.from_lights(sequence, observer);
+        let gather = Gather::new(&direct, scene, &shading, ());
+        let light = gather.light_part(sequence, observer);
         let is_last = bounces + 2 >= self.max_depth;
         if is_last && !gather.draws_from_bsdf() {
             return (light, None);

@@ -23,6 +23,11 @@ pub trait Material: Copy {
     /// * `uv` – computes the place's texture coordinates; called only where they matter
     fn at(&self, uv: impl FnOnce() -> Vec2) -> Self::Bsdf;
 
+    /// True when the BSDF may differ from place to place.
+    fn is_textured(&self) -> bool {
+        true
+    }
+
     /// Checks the BSDFs that it gives, where textures do not change them.
     ///
     /// # Errors
@@ -36,6 +41,10 @@ impl<B: Bsdf> Material for B {
     #[inline]
     fn at(&self, _uv: impl FnOnce() -> Vec2) -> B {
         *self
+    }
+
+    fn is_textured(&self) -> bool {
+        false
     }
 
     fn check_bsdfs(&self) -> Result<(), BsdfError> {
@@ -89,6 +98,10 @@ impl Material for AnyMaterial<'_> {
             Self::Plain(bsdf) => *bsdf,
             Self::Textured(faces) => faces.at(uv()),
         }
+    }
+
+    fn is_textured(&self) -> bool {
+        matches!(self, Self::Textured(_))
     }
 
     fn check_bsdfs(&self) -> Result<(), BsdfError> {

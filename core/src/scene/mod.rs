@@ -170,6 +170,15 @@ impl<'a, S: Shape, L: Emitter, M: Material, const STACK: usize> Scene<'a, S, L, 
         self.tables.surfaces.get(index as usize).map(|surface| self.interaction(index, surface, ray, &hit))
     }
 
+    /// Where a ray with unit direction meets a surface, whatever stands before it.
+    #[inline]
+    #[must_use]
+    pub(crate) fn hit_on(&self, index: u32, ray: &Ray, reach: f32) -> Option<Interaction> {
+        let surface = self.tables.surfaces.get(index as usize)?;
+        let hit = surface.shape.intersect(&PreparedRay::new(*ray), reach)?;
+        Some(self.interaction(index, surface, ray, &hit))
+    }
+
     /// Everything about a hit.
     #[inline]
     fn interaction(&self, index: u32, surface: &Surface<S>, ray: &Ray, hit: &ShapeHit) -> Interaction {
