@@ -2,7 +2,9 @@
 
 use crate::args::{Choices, Choose, Environment, Heuristic, Lights, Portals, Sequence, Technique};
 use crate::failure::Failure;
-use halflight::build::{BoundScene, Description, FEW_LIGHTS, IntegratorDescription, SceneBuffers};
+use halflight::build::{
+    BoundScene, Description, FEW_LIGHTS, IntegratorDescription, PathDescription, SceneBuffers,
+};
 use halflight::choose::LightChoice;
 use halflight::estimate::{AnyEstimator, Direct, Heuristic as Weights, Occlusion, Technique as Combine};
 use halflight::light::{AnyLight, Emitter, EnvironmentDensity, SurfaceDensity};
@@ -29,13 +31,14 @@ pub(crate) enum Points {
 /// Every choice made.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Plan {
-    /// Direct light.
+    /// Direct light, and indirect light where it is asked for.
     Direct {
         technique: Combine,
         light_samples: u32,
         bsdf_samples: u32,
         surface: SurfaceDensity,
         choice: Choice,
+        path: Option<PathDescription>,
         /// Of the environment map that there is.
         environment: Option<EnvironmentDensity>,
         points: Points,
@@ -58,6 +61,7 @@ pub(crate) fn check(choices: &Choices) -> Result<(), Failure> {
         ("--environment", choices.environment != Environment::Auto, &[Auto, Light, Bsdf, Mis, Control]),
         ("--portals", choices.portals == Portals::Off, &[Auto, Light, Bsdf, Mis, Control]),
         ("--choose", choices.choose != Choose::Auto, &[Auto, Light, Bsdf, Mis, Control]),
+        ("--max-depth", choices.max_depth.is_some(), &[Auto, Light, Bsdf, Mis, Control]),
         ("--occlusion-distance", choices.occlusion_distance.is_some(), &[Occlusion]),
     ];
     match uses.iter().find(|(_, given, with)| *given && !with.contains(&choices.technique)) {
@@ -113,15 +117,30 @@ pub(crate) fn make(
         Lights::Projected => SurfaceDensity::Projected,
         Lights::Auto => SurfaceDensity::Auto,
     };
+    let path = path(choices, author);
     Ok(Plan::Direct {
         technique: technique(choices, description),
         light_samples: choices.light_samples.or(author.light_samples).unwrap_or(1).max(1),
-        bsdf_samples: choices.bsdf_samples.or(author.bsdf_samples).unwrap_or(1).max(1),
+        // A path goes on in one direction.
+        bsdf_samples: match path {
+            Some(_) => 1,
+            None => choices.bsdf_samples.or(author.bsdf_samples).unwrap_or(1).max(1),
+        },
         surface,
         choice: choice(choices.choose, lights.len()),
+        path,
         environment: description.environments.first().map(|e| e.density.resolved()),
         points,
     })
+}
+
+/// How far paths go; `None` for direct light.
+fn path(choices: &Choices, author: &IntegratorDescription) -> Option<PathDescription> {
+    let path = match choices.max_depth {
+        Some(max_depth) => Some(PathDescription { max_depth, ..author.path.unwrap_or_default() }),
+        None => author.path,
+    };
+    path.filter(|p| !p.is_direct())
 }
 
 /// Which densities are combined.
@@ -137,10 +156,11 @@ fn technique(choices: &Choices, description: &Description) -> Combine {
         Technique::Mis => Combine::Mis(weights),
         Technique::Control => Combine::Control(weights),
         Technique::Auto | Technique::Occlusion => {
-            let IntegratorDescription { light_samples, bsdf_samples } = description.integrator;
+            let IntegratorDescription { light_samples, bsdf_samples, path } = description.integrator;
             let integrator = IntegratorDescription {
                 light_samples: choices.light_samples.or(light_samples),
                 bsdf_samples: choices.bsdf_samples.or(bsdf_samples),
+                path,
             };
             description.required_technique(integrator, weights)
         }
@@ -178,17 +198,23 @@ impl Plan {
     /// The estimator, for the scene that the plan was made for.
     pub(crate) fn estimator<'a>(&self, buffers: &'a SceneBuffers) -> AnyEstimator<'a> {
         match *self {
-            Self::Direct { technique, light_samples, bsdf_samples, surface, choice, .. } => {
+            Self::Direct { technique, light_samples, bsdf_samples, surface, choice, path, .. } => {
                 let choice = match (choice, buffers.power_table()) {
                     (Choice::Power, Some(table)) => LightChoice::Power(table),
                     (Choice::Tree, _) => LightChoice::Tree(buffers.light_tree()),
                     (Choice::All, _) => LightChoice::All,
                     _ => LightChoice::Uniform,
                 };
-                AnyEstimator::Direct(Direct { technique, light_samples, bsdf_samples, surface, choice })
+                let direct = Direct { technique, light_samples, bsdf_samples, surface, choice };
+                path.map_or(AnyEstimator::Direct(direct), |path| AnyEstimator::Path(path.estimator(direct)))
             }
             Self::Occlusion { reach, .. } => AnyEstimator::Occlusion(Occlusion { reach, samples: 1 }),
         }
+    }
+
+    /// True when light is followed beyond the first surface.
+    pub(crate) fn has_paths(&self) -> bool {
+        matches!(self, Self::Direct { path: Some(_), .. })
     }
 
     /// True when no light is chosen, as all are sampled.
@@ -210,9 +236,20 @@ impl Plan {
     pub(crate) fn flags(&self) -> Vec<(&'static str, String)> {
         let sequence = |points| ("sequence", points_flag(points).to_owned());
         match *self {
-            Self::Direct { technique, light_samples, bsdf_samples, surface, choice, environment, points } => {
+            Self::Direct {
+                technique,
+                light_samples,
+                bsdf_samples,
+                surface,
+                choice,
+                path,
+                environment,
+                points,
+            } => {
                 let (technique, heuristic) = technique_flags(technique);
-                let mut flags = vec![("technique", technique.to_owned())];
+                let depth = |p: PathDescription| ("max-depth", depth_flag(p.max_depth));
+                let mut flags: Vec<_> = path.map(depth).into_iter().collect();
+                flags.push(("technique", technique.to_owned()));
                 flags.extend(heuristic.map(|h| ("heuristic", h.to_owned())));
                 flags.push(("light-samples", light_samples.to_string()));
                 flags.push(("bsdf-samples", bsdf_samples.to_string()));
@@ -240,6 +277,11 @@ const fn technique_flags(technique: Combine) -> (&'static str, Option<&'static s
         Combine::Auto(weights) => ("auto", Some(weights_flag(weights))),
         Combine::Control(weights) => ("control", Some(weights_flag(weights))),
     }
+}
+
+/// As it is typed.
+fn depth_flag(depth: u32) -> String {
+    if depth == u32::MAX { "-1".to_owned() } else { depth.to_string() }
 }
 
 /// As it is typed.

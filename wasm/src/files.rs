@@ -76,7 +76,11 @@ impl Scene {
 
 impl Scene {
     fn loaded(loaded: Loaded) -> Res<Self> {
-        let warnings = loaded.warnings.iter().map(ToString::to_string).collect();
+        let mut warnings: Vec<_> = loaded.warnings.iter().map(ToString::to_string).collect();
+        if loaded.description.integrator.path.is_some() {
+            warnings
+                .push("only direct light is rendered here; the command line has indirect light too".into());
+        }
         Self::new(loaded.description, warnings)
     }
 

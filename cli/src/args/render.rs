@@ -1,7 +1,7 @@
 //! The arguments of `halflight render`.
 
 use super::SceneArgs;
-use super::values::{crop, finite, positive};
+use super::values::{crop, depth, finite, positive};
 use clap::builder::RangedU64ValueParser;
 use clap::{Args, ValueEnum, value_parser};
 use halflight::film::{MAX_RESOLUTION, PixelRect};
@@ -121,6 +121,11 @@ pub(crate) struct Choices {
     /// How far away a surface still shades, with --technique occlusion [default: any distance]
     #[arg(long, value_name = "METRES", value_parser = positive, allow_negative_numbers = true)]
     pub(crate) occlusion_distance: Option<f32>,
+
+    /// Most segments between camera and light: 1 shows the lights, 2 direct light, 3 and more indirect light
+    /// too, -1 all of it [default: what the scene says, or 2]
+    #[arg(long, value_name = "N", value_parser = depth, allow_negative_numbers = true)]
+    pub(crate) max_depth: Option<u32>,
 
     /// Which light is sampled where there are several
     #[arg(long, value_enum, value_name = "HOW", default_value_t)]

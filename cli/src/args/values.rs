@@ -24,6 +24,15 @@ pub(super) fn sky(text: &str) -> Result<Sky, String> {
     sky.map(|sky| sky.scaled(Sky::EXPOSED)).map_err(|e| e.to_string())
 }
 
+/// A number of segments: from 1, or -1 for any, which is [`u32::MAX`].
+pub(super) fn depth(text: &str) -> Result<u32, String> {
+    match (text, text.parse()) {
+        ("-1", _) => Ok(u32::MAX),
+        (_, Ok(depth @ 1..)) => Ok(depth),
+        _ => Err("a whole number from 1 is needed, or -1 for paths without end".to_owned()),
+    }
+}
+
 /// A number that is neither infinite nor NaN.
 pub(super) fn finite(text: &str) -> Result<f32, String> {
     match text.parse() {
@@ -75,6 +84,14 @@ mod tests {
         assert!(finite("inf").is_err() && finite("nan").is_err() && finite("bright").is_err());
         assert!(positive("0").is_err() && positive("nan").is_err() && positive("inf").is_ok());
         assert!(not_negative("-1").is_err() && not_negative("nan").is_err() && not_negative("0").is_ok());
+    }
+
+    #[test]
+    fn a_depth_has_no_end_or_is_at_least_one() {
+        assert_eq!((depth("-1"), depth("1"), depth("8")), (Ok(u32::MAX), Ok(1), Ok(8)));
+        for text in ["0", "-2", "2.5", "", "all"] {
+            assert!(depth(text).is_err(), "{text}");
+        }
     }
 
     #[test]

@@ -236,10 +236,15 @@ fn left_out(scene: AnyScene<'_>, plan: Option<&Plan>) -> Vec<&'static str> {
     if scene.environments().next().is_none() {
         left_out.push("environment (no light surrounds the scene)");
     }
-    if !scene.has_light_to_meet() {
-        left_out.push("BSDF samples (no ray can meet a light)");
-    } else if scene.materials().iter().all(|b| bsdf_kind(b) == "diffuse") {
-        left_out.push("BSDF samples (every material is diffuse)");
+    if !plan.is_some_and(Plan::has_paths) {
+        if !scene.lights().is_empty() {
+            left_out.push("indirect light (the scene asks for direct light)");
+        }
+        if !scene.has_light_to_meet() {
+            left_out.push("BSDF samples (no ray can meet a light)");
+        } else if scene.materials().iter().all(|b| bsdf_kind(b) == "diffuse") {
+            left_out.push("BSDF samples (every material is diffuse)");
+        }
     }
     if scene.materials().iter().all(|m| matches!(m, AnyMaterial::Plain(_))) {
         left_out.push("textures (no material has one)");

@@ -104,6 +104,10 @@ fn without_effect(args: &RenderArgs, prepared: &Prepared) -> Vec<&'static str> {
     let has_sky = has_map || description.lights.iter().any(Emitter::is_environment);
     let asked = [
         (
+            args.choices.bsdf_samples.is_some() && prepared.plan.has_paths(),
+            "--bsdf-samples has no effect: a path goes on in one direction",
+        ),
+        (
             args.choices.environment != Environment::Auto && !has_map,
             "--environment has no effect: the scene has no environment map",
         ),

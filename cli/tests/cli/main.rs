@@ -11,6 +11,7 @@ mod help;
 mod interrupt;
 mod layers;
 mod output_range;
+mod paths;
 mod results;
 mod serve;
 mod support;

@@ -7,6 +7,7 @@ use super::{MaterialTextures, TextureDescription};
 use crate::Rgb;
 use crate::bsdf::{AnyBsdf, TwoSided};
 use crate::camera::{Camera, CameraError, View};
+use crate::estimate::{Direct, Path};
 use crate::film::Filter;
 use crate::light::{AnyLight, EnvironmentDensity, Portal};
 use crate::num;
@@ -70,13 +71,51 @@ pub struct Image {
     pub texels: Vec<Rgb>,
 }
 
-/// How the direct light is to be integrated, as far as the author says.
+/// How the light is to be integrated, as far as the author says.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct IntegratorDescription {
     /// Light samples per camera sample.
     pub light_samples: Option<u32>,
     /// BSDF samples per camera sample.
     pub bsdf_samples: Option<u32>,
+    /// Which indirect light; `None` for direct light alone.
+    pub path: Option<PathDescription>,
+}
+
+/// How much indirect light is wanted: see [`crate::estimate::Path`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PathDescription {
+    /// Most segments between camera and light, 1 or more; [`u32::MAX`] has no end.
+    pub max_depth: u32,
+    /// Segments after which Russian roulette decides whether a path goes on.
+    pub rr_depth: u32,
+    /// Whether lights light but are not seen.
+    pub hide_emitters: bool,
+}
+
+impl Default for PathDescription {
+    /// All of the light.
+    fn default() -> Self {
+        let Path { max_depth, rr_depth, hide_emitters, .. } = Path::default();
+        Self { max_depth, rr_depth, hide_emitters }
+    }
+}
+
+impl PathDescription {
+    /// True when it is nothing but direct light and the lights themselves.
+    #[must_use]
+    pub const fn is_direct(&self) -> bool {
+        self.max_depth == 2 && !self.hide_emitters
+    }
+
+    /// The estimator.
+    ///
+    /// * `direct` – how the light that comes straight from the lights is sampled
+    #[must_use]
+    pub const fn estimator<'a>(&self, direct: Direct<'a>) -> Path<'a> {
+        let Self { max_depth, rr_depth, hide_emitters } = *self;
+        Path { direct, max_depth, rr_depth, hide_emitters }
+    }
 }
 
 /// A named material.

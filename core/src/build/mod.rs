@@ -19,7 +19,7 @@ pub use bound::BoundScene;
 pub use buffers::{SceneBuffers, SceneStats};
 pub use description::{
     CameraDescription, Description, Emission, EnvironmentDescription, FovAxis, Geometry, Image,
-    IntegratorDescription, Material, Mesh, Object, ProjectionDescription,
+    IntegratorDescription, Material, Mesh, Object, PathDescription, ProjectionDescription,
 };
 pub use environment::EnvironmentTables;
 pub use error::BuildError;

@@ -1,7 +1,7 @@
 //! What is written is what was there.
 
 use crate::folder;
-use halflight::build::{CameraDescription, Description, Geometry, Mesh, Object};
+use halflight::build::{CameraDescription, Description, Geometry, Mesh, Object, PathDescription};
 use halflight::film::Filter;
 use halflight::glam::Vec3;
 use halflight::light::AnyLight;
@@ -75,6 +75,21 @@ fn everything_comes_back_to_the_last_bit() {
     let path = folder("roundtrip-out").join("out.xml");
     export_mitsuba(&description, &path).unwrap();
     assert_same(&read(&path), &description);
+}
+
+#[test]
+fn paths_come_back() {
+    let mut description = builtin("cornell").unwrap();
+    for path in [
+        PathDescription::default(),
+        PathDescription { max_depth: 9, rr_depth: 2, hide_emitters: true },
+        PathDescription { max_depth: 1, ..PathDescription::default() },
+    ] {
+        description.integrator.path = Some(path);
+        let file = folder("paths").join("out.xml");
+        export_mitsuba(&description, &file).unwrap();
+        assert_eq!(read(&file).integrator, description.integrator);
+    }
 }
 
 /// The axes are made unit vectors again on reading, so they may differ by a rounding.

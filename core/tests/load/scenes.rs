@@ -3,7 +3,7 @@
 use crate::{load_body, load_files, scene};
 use halflight::Rgb;
 use halflight::bsdf::{AnyBsdf, Bsdf};
-use halflight::build::{FovAxis, Geometry, ProjectionDescription};
+use halflight::build::{FovAxis, Geometry, PathDescription, ProjectionDescription};
 use halflight::film::Filter;
 use halflight::glam::Vec3;
 use halflight::load::LoadOptions;
@@ -228,7 +228,7 @@ fn only_the_first_sensor_counts_and_without_one_all_is_seen() {
 }
 
 #[test]
-fn integrators_give_sample_counts_and_path_gives_a_warning() {
+fn integrators_give_sample_counts_and_how_far_paths_go() {
     let counts = |integrator: &str| {
         let loaded = load_body(
             "integrators",
@@ -236,6 +236,7 @@ fn integrators_give_sample_counts_and_path_gives_a_warning() {
         )
         .unwrap();
         let i = loaded.description.integrator;
+        assert_eq!(i.path, None, "{integrator}");
         (i.light_samples, i.bsdf_samples, loaded.warnings.len())
     };
     let direct = |inside: &str| counts(&format!("<integrator type=\"direct\">{inside}</integrator>"));
@@ -243,7 +244,24 @@ fn integrators_give_sample_counts_and_path_gives_a_warning() {
     assert_eq!(direct("<integer name=\"shading_samples\" value=\"3\"/>"), (Some(3), Some(3), 0));
     assert_eq!(direct("<integer name=\"emitter_samples\" value=\"2\"/>"), (Some(2), None, 0));
     assert_eq!(direct("<boolean name=\"hide_emitters\" value=\"true\"/>"), (None, None, 1));
-    assert_eq!(counts("<integrator type=\"path\"/>"), (None, None, 1));
     let one_bounce = "<integrator type=\"path\"><integer name=\"max_depth\" value=\"2\"/></integrator>";
     assert_eq!(counts(one_bounce), (None, None, 0), "that is the direct light");
+    let path = |inside: &str| {
+        let integrator = format!("<integrator type=\"path\">{inside}</integrator>");
+        let scene = format!("<shape type=\"disk\"/><sensor type=\"perspective\"/>{integrator}");
+        load_body("integrators", &scene).map(|loaded| loaded.description.integrator.path)
+    };
+    let depth = |name: &str, value: &str| format!("<integer name=\"{name}\" value=\"{value}\"/>");
+    let all = PathDescription { max_depth: u32::MAX, rr_depth: 5, hide_emitters: false };
+    assert_eq!(path("").unwrap(), Some(all));
+    assert_eq!(path(&depth("max_depth", "-1")).unwrap(), Some(all));
+    assert_eq!(path(&depth("max_depth", "8")).unwrap(), Some(PathDescription { max_depth: 8, ..all }));
+    assert_eq!(path(&depth("rr_depth", "3")).unwrap(), Some(PathDescription { rr_depth: 3, ..all }));
+    let hidden = depth("max_depth", "2") + "<boolean name=\"hide_emitters\" value=\"true\"/>";
+    let expected = PathDescription { max_depth: 2, hide_emitters: true, ..all };
+    assert_eq!(path(&hidden).unwrap(), Some(expected));
+    for value in ["0", "-2", "many", "1.5"] {
+        let error = path(&depth("max_depth", value)).unwrap_err().to_string();
+        assert!(error.contains("-1 for paths without end"), "{error}");
+    }
 }

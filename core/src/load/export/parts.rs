@@ -5,7 +5,7 @@ use super::xml::Xml;
 use super::{ExportError, digits};
 use crate::build::{
     CameraDescription, Description, Emission, EnvironmentDescription, FovAxis, Geometry,
-    IntegratorDescription, ProjectionDescription,
+    IntegratorDescription, PathDescription, ProjectionDescription,
 };
 use crate::camera::View;
 use crate::film::Filter;
@@ -14,6 +14,7 @@ use crate::light::{AnyLight, Emitter, Portal, Spot};
 use crate::shape::AnyShape;
 use crate::texture::ObjectSpace;
 use glam::{DMat3, DVec3, Vec3};
+use std::borrow::ToOwned;
 use std::format;
 
 /// Mitsuba refuses a near distance of 0.
@@ -26,12 +27,26 @@ pub(super) fn integrator(xml: &mut Xml, description: &Description) {
     if samples == IntegratorDescription::default() {
         return xml.empty("integrator", &[("type", "direct")]);
     }
+    if let Some(path) = samples.path {
+        return path_integrator(xml, path);
+    }
     xml.open_plugin("integrator", "direct", None);
     for (name, count) in [("emitter_samples", samples.light_samples), ("bsdf_samples", samples.bsdf_samples)]
     {
         if let Some(count) = count {
             xml.integer(name, count);
         }
+    }
+    xml.close("integrator");
+}
+
+fn path_integrator(xml: &mut Xml, path: PathDescription) {
+    xml.open_plugin("integrator", "path", None);
+    let depth = |depth| if depth == u32::MAX { "-1".to_owned() } else { format!("{depth}") };
+    xml.property("integer", "max_depth", &depth(path.max_depth));
+    xml.property("integer", "rr_depth", &depth(path.rr_depth));
+    if path.hide_emitters {
+        xml.property("boolean", "hide_emitters", "true");
     }
     xml.close("integrator");
 }

@@ -86,6 +86,12 @@ impl<'e> Properties<'e> {
         child.map(value::count).transpose()
     }
 
+    /// A number of segments of a path.
+    pub(super) fn depth(&mut self, name: &'static str) -> Result<Option<u32>, LoadError> {
+        let child = self.take(name, &["integer"], "an <integer>")?;
+        child.map(value::depth).transpose()
+    }
+
     /// True or false; false when it is not given.
     pub(super) fn flag(&mut self, name: &'static str) -> Result<bool, LoadError> {
         self.flag_or(name, false)

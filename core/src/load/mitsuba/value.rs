@@ -85,6 +85,17 @@ pub(super) fn count(element: &Element) -> Result<u32, LoadError> {
     text.trim().parse().map_err(|_| bad(element, "value", "a whole number from 0 to 4294967295"))
 }
 
+/// A number of segments of a path: from 1, or -1 for any number, which is [`u32::MAX`].
+pub(super) fn depth(element: &Element) -> Result<u32, LoadError> {
+    match element.required("value")?.trim() {
+        "-1" => Ok(u32::MAX),
+        text => match text.parse() {
+            Ok(depth @ 1..) => Ok(depth),
+            _ => Err(bad(element, "value", "a whole number from 1, or -1 for paths without end")),
+        },
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
