@@ -1,6 +1,6 @@
 //! The files that a render leaves.
 
-use crate::args::RenderArgs;
+use crate::args::{RenderArgs, Showing};
 use crate::driver::{Rendered, samples};
 use crate::failure::Failure;
 use crate::output::Output;
@@ -56,9 +56,9 @@ impl Files {
         })
     }
 
-    /// True when the picture is shown as it is, so that exposure applies.
-    pub(crate) fn is_8_bit(&self) -> bool {
-        self.picture.0.is_8_bit()
+    /// True when the picture is shown as it is, so that a view and an exposure apply.
+    pub(crate) fn is_shown(&self) -> bool {
+        self.picture.0.is_shown()
     }
 
     /// Writes them.
@@ -73,17 +73,17 @@ impl Files {
         let bytes = if args.layers {
             encode_layers(&radiance, layers(rendered))?
         } else {
-            format.encode(&radiance, args.exposure.unwrap_or(0.0))?
+            format.encode(&radiance, &args.showing)?
         };
         output.write(&bytes)?;
         if let Some(output) = &self.samples {
             let most = rendered.samples_per_pixel().1.max(1) as f32;
             let share = picture(&|p| Rgb::splat(samples(p.stats()) as f32 / most));
-            output.write(&Format::Png.encode(&share, 0.0)?)?;
+            output.write(&Format::Png.encode(&share, &Showing::default())?)?;
         }
         if let Some(output) = &self.visibility {
             let seen = picture(&|p| Rgb::splat(p.layered().map_or(0.0, LayeredPixel::visibility)));
-            output.write(&Format::Png.encode(&seen, 0.0)?)?;
+            output.write(&Format::Png.encode(&seen, &Showing::default())?)?;
         }
         Ok(())
     }

@@ -1,12 +1,14 @@
 //! The command line: what can be typed, and its typed form.
 
 mod render;
+mod showing;
 mod tradeoff;
 mod values;
 
 pub(crate) use render::{
     Adaptive, Choices, Choose, Environment, Heuristic, Lights, Portals, RenderArgs, Sequence, Technique,
 };
+pub(crate) use showing::{Showing, View};
 pub(crate) use tradeoff::TradeoffArgs;
 
 use clap::builder::Styles;

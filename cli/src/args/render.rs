@@ -1,7 +1,7 @@
 //! The arguments of `halflight render`.
 
-use super::SceneArgs;
-use super::values::{crop, depth, finite, positive};
+use super::values::{crop, depth, positive};
+use super::{SceneArgs, Showing};
 use clap::builder::RangedU64ValueParser;
 use clap::{Args, ValueEnum, value_parser};
 use halflight::film::{MAX_RESOLUTION, PixelRect};
@@ -67,9 +67,8 @@ pub(crate) struct RenderArgs {
     #[arg(long, value_name = "X0,Y0,X1,Y1", value_parser = crop, allow_hyphen_values = true)]
     pub(crate) crop: Option<PixelRect>,
 
-    /// Brighten by this many stops; only .png
-    #[arg(long, value_name = "EV", value_parser = finite, allow_negative_numbers = true)]
-    pub(crate) exposure: Option<f32>,
+    #[command(flatten)]
+    pub(crate) showing: Showing,
 
     /// Which random numbers: the same seed gives the same bits, with any number of threads
     #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true)]
@@ -281,7 +280,7 @@ impl Default for RenderArgs {
             width: None,
             height: None,
             crop: None,
-            exposure: None,
+            showing: Showing::default(),
             seed: 0,
             threads: None,
             choices: Choices::default(),

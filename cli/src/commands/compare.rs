@@ -1,6 +1,6 @@
 //! `halflight compare`: how far a picture is from a reference.
 
-use crate::args::CompareArgs;
+use crate::args::{CompareArgs, Showing};
 use crate::failure::{Exit, Failure};
 use crate::measure::{Agreement, agreement, flip, heat, ssim};
 use crate::number::significant;
@@ -37,10 +37,10 @@ pub(crate) fn run(args: &CompareArgs) -> Result<Exit, Failure> {
     let measures = measure(&picture, &reference, &seen);
     let noise = within_noise(args, &picture, &reference)?;
     if let Some((format, output)) = heat_map {
-        output.write(&format.encode(&heat(&seen, picture.width, picture.height), 0.0)?)?;
+        output.write(&format.encode(&heat(&seen, picture.width, picture.height), &Showing::default())?)?;
     }
     if let Some((format, output)) = output {
-        output.write(&format.encode(&difference(&picture, &reference), args.exposure)?)?;
+        output.write(&format.encode(&difference(&picture, &reference), &Showing::exposed(args.exposure))?)?;
     }
     let passed = args.max_relmse.is_none_or(|most| measures.relmse <= most)
         && noise.is_none_or(|agreement| agreement.holds());

@@ -44,8 +44,8 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Exit, Failure> {
     let files = Files::check(args)?;
     let pool = pool(args)?;
     let mut prepared = prepare(args, begin)?;
-    if args.exposure.is_some() && !files.is_8_bit() {
-        prepared.warn(format!("--exposure has no effect on {}; it is for .png", args.output.display()));
+    for flag in args.showing.given().filter(|_| !files.is_shown()) {
+        prepared.warn(format!("{flag} has no effect on {}, which is linear", args.output.display()));
     }
     without_effect(args, &prepared).into_iter().for_each(|text| prepared.warn(text.to_owned()));
     if sees_layers(args) {

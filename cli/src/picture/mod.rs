@@ -3,6 +3,7 @@
 mod layers;
 mod read;
 mod srgb;
+mod view;
 mod write;
 
 pub(crate) use layers::{Layer, encode_layers};

@@ -64,6 +64,7 @@ fn reason(error: &ImageError) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::args::Showing;
     use crate::picture::Format;
 
     fn gradient() -> Picture {
@@ -74,7 +75,7 @@ mod tests {
     fn round_trip(format: Format, name: &str) -> Picture {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join(name);
-        std::fs::write(&path, format.encode(&gradient(), 0.0).unwrap()).unwrap();
+        std::fs::write(&path, format.encode(&gradient(), &Showing::default()).unwrap()).unwrap();
         read(&path).unwrap()
     }
 

@@ -1,8 +1,9 @@
 //! Encoding pictures as files.
 
-use super::{Picture, encode};
+use super::Picture;
+use crate::args::Showing;
 use crate::failure::Failure;
-use halflight::Rgb;
+use halflight::num::pow;
 use image::codecs::hdr::HdrEncoder;
 use image::codecs::openexr::OpenExrEncoder;
 use image::codecs::png::PngEncoder;
@@ -43,22 +44,21 @@ impl Format {
         })
     }
 
-    /// True for a format whose values are shown as they are, so that exposure applies.
-    pub(crate) fn is_8_bit(self) -> bool {
+    /// True for a format whose values are shown as they are, so that a view and an exposure apply.
+    pub(crate) fn is_shown(self) -> bool {
         self == Self::Png
     }
 
-    /// The bytes of a file with this picture, whose values are multiplied by 2^`exposure` if the
-    /// format has 8 bits.
+    /// The bytes of a file with this picture, seen as `showing` says if the format is one that is shown.
     ///
     /// # Errors
     /// When the picture does not fit the format.
-    pub(crate) fn encode(self, picture: &Picture, exposure: f32) -> Result<Vec<u8>, Failure> {
+    pub(crate) fn encode(self, picture: &Picture, showing: &Showing) -> Result<Vec<u8>, Failure> {
         let Picture { width, height, .. } = *picture;
         let mut file = Cursor::new(Vec::new());
         match self {
             Self::Png => {
-                let bytes = bytes(picture, exposure);
+                let bytes = bytes(picture, showing);
                 PngEncoder::new(&mut file).write_image(&bytes, width, height, ExtendedColorType::Rgb8)
             }
             Self::Exr => {
@@ -76,16 +76,17 @@ impl Format {
     }
 }
 
-/// The picture in 8-bit sRGB.
-fn bytes(picture: &Picture, exposure: f32) -> Vec<u8> {
-    let gain = exposure.exp2();
-    let byte = |linear: f32| (encode(linear * gain) * 255.0).round() as u8;
-    picture.pixels.iter().flat_map(|&Rgb { r, g, b }| [byte(r), byte(g), byte(b)]).collect()
+/// The codes of the picture, 8 bits each.
+fn bytes(picture: &Picture, showing: &Showing) -> Vec<u8> {
+    let (view, gain) = (showing.view.unwrap_or_default(), pow(2.0, showing.exposure.unwrap_or(0.0)));
+    let byte = |code: f32| (code * 255.0).round() as u8;
+    picture.pixels.iter().flat_map(|&p| view.codes(p * gain).to_array().map(byte)).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use halflight::Rgb;
 
     #[test]
     fn the_extension_decides_whatever_its_case() {
@@ -99,8 +100,11 @@ mod tests {
     #[test]
     fn exposure_doubles_with_every_stop() {
         let picture = Picture { width: 1, height: 1, pixels: vec![Rgb::splat(0.25)] };
-        assert_eq!(bytes(&picture, 2.0), [255; 3]);
-        assert_eq!(bytes(&picture, 0.0), bytes(&picture, 0.0));
-        assert!(bytes(&picture, 1.0)[0] > bytes(&picture, 0.0)[0]);
+        let code = |exposure| bytes(&picture, &Showing::exposed(exposure));
+        assert_eq!(code(2.0), [255; 3]);
+        assert_eq!(code(0.0), bytes(&picture, &Showing::default()));
+        assert!(code(1.0)[0] > code(0.0)[0]);
+        assert_eq!(code(1e30), [255; 3]);
+        assert_eq!(code(-1e30), [0; 3]);
     }
 }

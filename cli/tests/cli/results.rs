@@ -94,6 +94,25 @@ fn exposure_brightens_png_and_nothing_else() {
 }
 
 #[test]
+fn a_view_changes_what_is_shown_and_nothing_else() {
+    let folder = Folder::new();
+    let mut seen = Vec::new();
+    for view in ["standard", "agx", "aces", "khronos-neutral", "none"] {
+        folder.good(&format!("render scene.xml -o out.png --view {view}"));
+        seen.push(folder.bytes("out.png"));
+    }
+    folder.good("render scene.xml -o out.png");
+    assert_eq!(seen[0], folder.bytes("out.png"), "standard is the default");
+    for (i, j) in (0..seen.len()).flat_map(|i| (0..i).map(move |j| (i, j))) {
+        assert_ne!(seen[i], seen[j], "views {i} and {j}");
+    }
+    let run = folder.run("render scene.xml -o a.hdr --view agx");
+    assert!(run.stderr.starts_with("warning: --view has no effect on a.hdr"), "{run:?}");
+    folder.good("render scene.xml -o b.hdr");
+    assert_eq!(folder.bytes("a.hdr"), folder.bytes("b.hdr"));
+}
+
+#[test]
 fn a_spare_command_line_renders_the_first_scene() {
     // Only that it is the same as naming it: the whole picture takes long.
     let folder = Folder::new();
