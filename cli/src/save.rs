@@ -56,9 +56,9 @@ impl Files {
         })
     }
 
-    /// True when the picture is shown as it is, so that a view and an exposure apply.
-    pub(crate) fn is_shown(&self) -> bool {
-        self.picture.0.is_shown()
+    /// How the picture is written.
+    pub(crate) fn format(&self) -> Format {
+        self.picture.0
     }
 
     /// Writes them.

@@ -8,7 +8,7 @@ mod values;
 pub(crate) use render::{
     Adaptive, Choices, Choose, Environment, Heuristic, Lights, Portals, RenderArgs, Sequence, Technique,
 };
-pub(crate) use showing::{Showing, View};
+pub(crate) use showing::{Depth, Showing, View};
 pub(crate) use tradeoff::TradeoffArgs;
 
 use clap::builder::Styles;
@@ -142,7 +142,7 @@ pub(crate) struct InspectArgs {
 #[derive(Debug, Args)]
 #[command(after_help = MEASURES)]
 pub(crate) struct CompareArgs {
-    /// The picture to judge: .exr, .hdr or .png (taken as sRGB)
+    /// The picture to judge: .exr, .pfm, .hdr, or .png and .jpg (taken as sRGB)
     pub(crate) picture: PathBuf,
 
     /// The picture to judge it by
@@ -152,7 +152,7 @@ pub(crate) struct CompareArgs {
     #[arg(long, value_name = "X", value_parser = values::not_negative, allow_negative_numbers = true)]
     pub(crate) max_relmse: Option<f64>,
 
-    /// Write the absolute difference as a picture (.png, .exr or .hdr)
+    /// Write the absolute difference as a picture (.png, .jpg, .exr, .pfm or .hdr)
     #[arg(short, long, value_name = "OUT")]
     pub(crate) output: Option<PathBuf>,
 
@@ -160,7 +160,7 @@ pub(crate) struct CompareArgs {
     #[arg(long, value_name = "OUT")]
     pub(crate) heat: Option<PathBuf>,
 
-    /// Brighten the difference by this many stops when it is written as .png
+    /// Brighten the difference by this many stops when it is written as .png or .jpg
     #[arg(long, value_name = "EV", default_value_t = 0.0, value_parser = values::finite, allow_negative_numbers = true)]
     pub(crate) exposure: f32,
 

@@ -15,7 +15,7 @@ pub(crate) struct RenderArgs {
     #[arg(value_name = "SCENE")]
     pub(crate) scene: Option<PathBuf>,
 
-    /// The picture: .png (8-bit sRGB), .exr (linear, 32-bit float) or .hdr (linear, RGBE)
+    /// The picture: .png, .jpg (sRGB), .exr, .pfm (linear, 32-bit float) or .hdr (linear, RGBE)
     #[arg(short, long, value_name = "OUT", default_value = DEFAULT_OUTPUT)]
     pub(crate) output: PathBuf,
 

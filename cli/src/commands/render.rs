@@ -44,8 +44,9 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Exit, Failure> {
     let files = Files::check(args)?;
     let pool = pool(args)?;
     let mut prepared = prepare(args, begin)?;
-    for flag in args.showing.given().filter(|_| !files.is_shown()) {
-        prepared.warn(format!("{flag} has no effect on {}, which is linear", args.output.display()));
+    files.format().check_size(prepared.film.crop().width(), prepared.film.crop().height())?;
+    for flag in args.showing.in_vain(files.format()) {
+        prepared.warn(format!("{flag} has no effect on {}", args.output.display()));
     }
     without_effect(args, &prepared).into_iter().for_each(|text| prepared.warn(text.to_owned()));
     if sees_layers(args) {

@@ -1,6 +1,7 @@
 //! Pictures in memory: linear RGB, first row on top.
 
 mod layers;
+mod pfm;
 mod read;
 mod srgb;
 mod view;

@@ -1,24 +1,31 @@
 //! Decoding files as pictures.
 
+use super::pfm::{decode_pfm, is_pfm};
 use super::{Picture, decode};
 use crate::failure::{Failure, io_reason};
 use halflight::Rgb;
 use image::{DynamicImage, ImageError, ImageReader};
+use std::fs;
+use std::io::Cursor;
 use std::path::Path;
 
-/// Reads a .exr, .hdr or .png file; the latter is taken as sRGB.
+/// Reads a .exr, .pfm, .hdr, .png or .jpg file; what is not linear is taken as sRGB.
 ///
 /// # Errors
 /// When it cannot be read or is none of these.
 pub(crate) fn read(path: &Path) -> Result<Picture, Failure> {
     let fail = |reason: String| Failure::new(format!("cannot read {}: {reason}", path.display()));
-    let mut reader = ImageReader::open(path)
-        .and_then(ImageReader::with_guessed_format)
-        .map_err(|e| fail(io_reason(&e)))?;
+    let bytes = fs::read(path).map_err(|e| fail(io_reason(&e)))?;
+    let picture = if is_pfm(&bytes) { decode_pfm(&bytes) } else { decode_other(&bytes) };
+    picture.map_err(|reason| fail(reason).tip("pictures can be .exr, .pfm, .hdr, .png or .jpg"))
+}
+
+/// Of the formats that a library reads.
+fn decode_other(bytes: &[u8]) -> Result<Picture, String> {
+    let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format().map_err(|e| io_reason(&e))?;
     // The default limit of half a gigabyte is less than a large film.
     reader.no_limits();
-    let image = reader.decode().map_err(|e| fail(reason(&e)).tip("pictures can be .exr, .hdr or .png"))?;
-    Ok(picture(&image))
+    reader.decode().map(|image| picture(&image)).map_err(|e| reason(&e))
 }
 
 /// The standard errors of a picture's pixels, which the layers `error.R`, `error.G` and `error.B` of an
@@ -75,7 +82,7 @@ mod tests {
     fn round_trip(format: Format, name: &str) -> Picture {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join(name);
-        std::fs::write(&path, format.encode(&gradient(), &Showing::default()).unwrap()).unwrap();
+        fs::write(&path, format.encode(&gradient(), &Showing::default()).unwrap()).unwrap();
         read(&path).unwrap()
     }
 
@@ -86,8 +93,9 @@ mod tests {
     }
 
     #[test]
-    fn exr_keeps_every_bit() {
+    fn exr_and_pfm_keep_every_bit() {
         assert_eq!(round_trip(Format::Exr, "a.exr"), gradient());
+        assert_eq!(round_trip(Format::Pfm, "a.pfm"), gradient());
     }
 
     #[test]
@@ -96,15 +104,16 @@ mod tests {
     }
 
     #[test]
-    fn png_is_linear_again_after_reading() {
+    fn png_and_jpeg_are_linear_again_after_reading() {
         assert!(largest_difference(&round_trip(Format::Png, "a.png"), &gradient()) < 0.005);
+        assert!(largest_difference(&round_trip(Format::Jpeg, "a.jpg"), &gradient()) < 0.15);
     }
 
     #[test]
     fn what_is_not_a_picture_is_refused() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.png");
-        std::fs::write(&path, "not a picture").unwrap();
+        fs::write(&path, "not a picture").unwrap();
         assert!(read(&path).is_err());
         assert!(read(&folder.path().join("missing.png")).is_err());
     }

@@ -160,6 +160,7 @@ fn outputs_that_cannot_be() {
     for (line, words) in [
         ("-o missing/out.png", "the folder missing does not exist"),
         ("-o out.bmp", "unknown format .bmp"),
+        ("-o out.tiff", "end the name in .png or .jpg"),
         ("-o out", "no extension"),
         ("-o .", "no extension"),
         ("-o scene.xml/out.png", "scene.xml"),
@@ -183,6 +184,9 @@ fn values_that_make_no_sense() {
         ("--height 100000", "--height"),
         ("--threads 0", "--threads"),
         ("--exposure nan", "--exposure"),
+        ("--view film", "khronos-neutral"),
+        ("--depth 12", "8, 16"),
+        ("--quality 0", "--quality"),
         ("--seed -1", "--seed"),
         ("--technique guess", "--technique"),
         ("--technique bsdf --heuristic power", "--heuristic"),

@@ -113,6 +113,23 @@ fn a_view_changes_what_is_shown_and_nothing_else() {
 }
 
 #[test]
+fn every_format_holds_the_picture() {
+    let folder = Folder::new();
+    for (name, more) in [("a.jpg", "--quality 100"), ("a.pfm", ""), ("a.png", "--depth 16"), ("a.exr", "")] {
+        let run = folder.run(&format!("render scene.xml -o {name} {more}"));
+        assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{name}");
+    }
+    folder.good("compare a.pfm a.exr --max-relmse 0");
+    let decibels = |line: &str| json(&folder, line)["psnr"].as_f64().unwrap();
+    assert!(decibels("compare a.png a.exr --json") > 90.0, "16 bits");
+    assert!(decibels("compare a.jpg a.exr --json") > 40.0);
+    let warned = folder.run("render scene.xml -o b.jpg --depth 16").stderr;
+    assert!(warned.contains("--depth has no effect on b.jpg"), "{warned}");
+    let refused = folder.refused("render scene.xml -o a.jpg --width 65536 --height 1");
+    assert!(refused.contains("at most 65535"), "{refused}");
+}
+
+#[test]
 fn a_spare_command_line_renders_the_first_scene() {
     // Only that it is the same as naming it: the whole picture takes long.
     let folder = Folder::new();
