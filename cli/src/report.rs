@@ -1,6 +1,7 @@
 //! What is said about a render when it is done.
 
 use crate::number::{counted, duration, percent_within, significant, with_prefix};
+use crate::picture::Header;
 use halflight::estimate::ErrorEstimate;
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -27,6 +28,10 @@ pub(crate) struct Report {
     pub(crate) scene: String,
     /// Columns and rows of the picture that was written.
     pub(crate) size: (u32, u32),
+    /// First column and row of the film that was rendered.
+    pub(crate) at: (u32, u32),
+    /// Columns and rows of the film.
+    pub(crate) film: (u32, u32),
     /// Fewest and most samples of a pixel.
     pub(crate) samples_per_pixel: (u32, u32),
     /// Samples in all.
@@ -106,6 +111,27 @@ impl Report {
         .join("  ")
     }
 
+    /// What a picture says of itself: all that is known but where it lies and how long it took, so that
+    /// equal renders are equal files.
+    pub(crate) fn header(&self) -> Header {
+        let mut settings = self.json();
+        if let Some(object) = settings.as_object_mut() {
+            for name in ["file", "seconds", "samples_per_second", "threads", "warnings"] {
+                object.remove(name);
+            }
+            object.insert("version".to_owned(), json!(env!("CARGO_PKG_VERSION")));
+        }
+        let error = self.error.relative_error().zip(self.error.interval());
+        let error = error.map_or_else(String::new, |(e, i)| format!(", error {}", percent_within(e, i)));
+        let comment = format!("{}, {}, seed {}{error}", self.scene, self.samples_per_pixel(), self.seed);
+        Header {
+            film: Some(self.film),
+            at: self.at,
+            comment: Some(comment.replace('±', "+-")),
+            settings: Some(settings.to_string()),
+        }
+    }
+
     /// One object for scripts.
     pub(crate) fn json(&self) -> Value {
         let choices: serde_json::Map<_, _> =
@@ -154,6 +180,8 @@ mod tests {
             file: "halflight.png".into(),
             scene: "still-life".into(),
             size: (960, 640),
+            at: (0, 0),
+            film: (960, 640),
             samples_per_pixel: (64, 64),
             samples: 39_321_600,
             triangles: 24_812,

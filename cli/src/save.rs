@@ -4,7 +4,8 @@ use crate::args::{RenderArgs, Showing};
 use crate::driver::{Rendered, samples};
 use crate::failure::Failure;
 use crate::output::Output;
-use crate::picture::{Format, Layer, Picture, encode_layers};
+use crate::picture::{Format, Layer, Picture, encode_exr};
+use crate::report::Report;
 use halflight::Rgb;
 use halflight::estimate::{LayeredPixel, Pixel, PixelStats};
 use std::path::Path;
@@ -65,15 +66,22 @@ impl Files {
     ///
     /// # Errors
     /// When the system refuses.
-    pub(crate) fn write<P: Saved>(&self, args: &RenderArgs, rendered: &Rendered<P>) -> Result<(), Failure> {
+    pub(crate) fn write<P: Saved>(
+        &self,
+        args: &RenderArgs,
+        rendered: &Rendered<P>,
+        report: &Report,
+    ) -> Result<(), Failure> {
         let (width, height) = rendered.size();
         let picture = |value: &dyn Fn(&P) -> Rgb| Picture { width, height, pixels: rendered.pixels(value) };
         let radiance = picture(&|p| p.stats().mean());
         let (format, output) = &self.picture;
-        let bytes = if args.layers {
-            encode_layers(&radiance, layers(rendered))?
-        } else {
-            format.encode(&radiance, &args.showing)?
+        let bytes = match format {
+            Format::Exr => {
+                let layers = if args.layers { layers(rendered) } else { Vec::new() };
+                encode_exr(&radiance, layers, &report.header())?
+            }
+            _ => format.encode(&radiance, &args.showing)?,
         };
         output.write(&bytes)?;
         if let Some(output) = &self.samples {

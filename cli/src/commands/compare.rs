@@ -5,7 +5,7 @@ use crate::failure::{Exit, Failure};
 use crate::measure::{Agreement, agreement, flip, heat, ssim};
 use crate::number::significant;
 use crate::output::Output;
-use crate::picture::{Format, Picture, encode, read, read_errors};
+use crate::picture::{Decoded, Format, Picture, encode, read_framed};
 use crate::terminal;
 use halflight::Rgb;
 use serde_json::{Value, json};
@@ -31,16 +31,17 @@ struct Measures {
 /// Compares two pictures.
 pub(crate) fn run(args: &CompareArgs) -> Result<Exit, Failure> {
     let (output, heat_map) = (writable(args.output.as_ref())?, writable(args.heat.as_ref())?);
-    let (picture, reference) = (finite(&args.picture)?, finite(&args.reference)?);
-    check_sizes(args, &picture, &reference)?;
-    let seen = flip(&picture, &reference);
-    let measures = measure(&picture, &reference, &seen);
-    let noise = within_noise(args, &picture, &reference)?;
+    let (one, other) = aligned(finite(&args.picture)?, finite(&args.reference)?);
+    let (picture, reference) = (&one.picture, &other.picture);
+    check_sizes(args, picture, reference)?;
+    let seen = flip(picture, reference);
+    let measures = measure(picture, reference, &seen);
+    let noise = within_noise(&one, &other);
     if let Some((format, output)) = heat_map {
         output.write(&format.encode(&heat(&seen, picture.width, picture.height), &Showing::default())?)?;
     }
     if let Some((format, output)) = output {
-        output.write(&format.encode(&difference(&picture, &reference), &Showing::exposed(args.exposure))?)?;
+        output.write(&format.encode(&difference(picture, reference), &Showing::exposed(args.exposure))?)?;
     }
     let passed = args.max_relmse.is_none_or(|most| measures.relmse <= most)
         && noise.is_none_or(|agreement| agreement.holds());
@@ -54,28 +55,31 @@ fn writable(path: Option<&PathBuf>) -> Result<Option<(Format, Output)>, Failure>
 }
 
 /// How well the pictures agree, when both carry standard errors.
-fn within_noise(
-    args: &CompareArgs,
-    picture: &Picture,
-    reference: &Picture,
-) -> Result<Option<Agreement>, Failure> {
-    let errors = (read_errors(&args.picture)?, read_errors(&args.reference)?);
-    let (Some(a), Some(b)) = errors else { return Ok(None) };
-    let whole = |errors: &Picture| errors.pixels.len() == picture.pixels.len();
-    Ok((whole(&a) && whole(&b)).then(|| agreement((picture, &a), (reference, &b))))
+fn within_noise(one: &Decoded, other: &Decoded) -> Option<Agreement> {
+    let (a, b) = (one.errors.as_ref()?, other.errors.as_ref()?);
+    Some(agreement((&one.picture, a), (&other.picture, b)))
+}
+
+/// Two different parts of one film are compared as the whole film, black around them.
+fn aligned(one: Decoded, other: Decoded) -> (Decoded, Decoded) {
+    if one.film != other.film || one.window == other.window {
+        return (one, other);
+    }
+    let framed = |part: Decoded| Decoded { picture: part.framed(), errors: None, ..part };
+    (framed(one), framed(other))
 }
 
 /// Reads a picture, all of whose values must be numbers.
-fn finite(path: &Path) -> Result<Picture, Failure> {
-    let picture = read(path)?;
-    match picture.pixels.iter().position(|p| !p.is_finite()) {
+fn finite(path: &Path) -> Result<Decoded, Failure> {
+    let read = read_framed(path)?;
+    match read.picture.pixels.iter().position(|p| !p.is_finite()) {
         Some(i) => {
-            let (x, y) = (i % picture.width as usize, i / picture.width as usize);
+            let (x, y) = (i % read.picture.width as usize, i / read.picture.width as usize);
             let name = path.display();
             Err(Failure::new(format!("{name}: pixel ({x}, {y}) is infinite or not a number"))
                 .tip("such a picture cannot be measured; render it anew"))
         }
-        None => Ok(picture),
+        None => Ok(read),
     }
 }
 

@@ -89,13 +89,14 @@ fn finish<P: Saved + Default + Clone + Send>(
         ));
     }
     prepared.warn_of_missed(&rendered);
+    let mut report = report(args, prepared, &rendered, pool.current_num_threads());
     let start = Instant::now();
     {
         let _step = Step::begin(format!("writing {}", args.output.display()), args.quiet);
-        files.write(args, &rendered)?;
+        files.write(args, &rendered, &report)?;
     }
-    prepared.seconds.save = start.elapsed().as_secs_f64();
-    tell(args, &report(args, prepared, &rendered, pool.current_num_threads()))
+    report.seconds.save = start.elapsed().as_secs_f64();
+    tell(args, &report)
 }
 
 /// What was asked for, or stands in the scene, in vain.
@@ -254,6 +255,8 @@ fn report<P: Saved>(args: &RenderArgs, prepared: Prepared, rendered: &Rendered<P
         file: args.output.clone(),
         scene: prepared.found.description.name,
         size: (crop.width(), crop.height()),
+        at: (crop.x0, crop.y0),
+        film: (prepared.film.width(), prepared.film.height()),
         samples_per_pixel: rendered.samples_per_pixel(),
         samples: rendered.samples(),
         triangles: stats.triangles as u64,

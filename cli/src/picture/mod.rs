@@ -1,14 +1,14 @@
 //! Pictures in memory: linear RGB, first row on top.
 
-mod layers;
+mod exr;
 mod pfm;
 mod read;
 mod srgb;
 mod view;
 mod write;
 
-pub(crate) use layers::{Layer, encode_layers};
-pub(crate) use read::{read, read_errors};
+pub(crate) use exr::{Decoded, Header, Layer, encode_exr};
+pub(crate) use read::{read, read_framed};
 pub(crate) use srgb::{decode, encode};
 pub(crate) use write::Format;
 

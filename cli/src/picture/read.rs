@@ -1,9 +1,11 @@
 //! Decoding files as pictures.
 
+use super::exr::{Decoded, decode_exr, is_exr};
 use super::pfm::{decode_pfm, is_pfm};
 use super::{Picture, decode};
 use crate::failure::{Failure, io_reason};
 use halflight::Rgb;
+use halflight::film::PixelRect;
 use image::{DynamicImage, ImageError, ImageReader};
 use std::fs;
 use std::io::Cursor;
@@ -14,10 +16,29 @@ use std::path::Path;
 /// # Errors
 /// When it cannot be read or is none of these.
 pub(crate) fn read(path: &Path) -> Result<Picture, Failure> {
+    Ok(read_framed(path)?.picture)
+}
+
+/// Reads a file as [`read`] does, and where in the film its picture is: a part of it, in .exr.
+///
+/// # Errors
+/// As [`read`].
+pub(crate) fn read_framed(path: &Path) -> Result<Decoded, Failure> {
     let fail = |reason: String| Failure::new(format!("cannot read {}: {reason}", path.display()));
     let bytes = fs::read(path).map_err(|e| fail(io_reason(&e)))?;
-    let picture = if is_pfm(&bytes) { decode_pfm(&bytes) } else { decode_other(&bytes) };
-    picture.map_err(|reason| fail(reason).tip("pictures can be .exr, .pfm, .hdr, .png or .jpg"))
+    let decoded = match bytes.as_slice() {
+        bytes if is_exr(bytes) => decode_exr(bytes),
+        bytes if is_pfm(bytes) => decode_pfm(bytes).map(whole),
+        bytes => decode_other(bytes).map(whole),
+    };
+    decoded.map_err(|reason| fail(reason).tip("pictures can be .exr, .pfm, .hdr, .png or .jpg"))
+}
+
+/// A picture that is all of its film.
+fn whole(picture: Picture) -> Decoded {
+    let film = (picture.width, picture.height);
+    let window = PixelRect { x0: 0, y0: 0, x1: film.0, y1: film.1 };
+    Decoded { picture, errors: None, window, film }
 }
 
 /// Of the formats that a library reads.
@@ -26,29 +47,6 @@ fn decode_other(bytes: &[u8]) -> Result<Picture, String> {
     // The default limit of half a gigabyte is less than a large film.
     reader.no_limits();
     reader.decode().map(|image| picture(&image)).map_err(|e| reason(&e))
-}
-
-/// The standard errors of a picture's pixels, which the layers `error.R`, `error.G` and `error.B` of an
-/// OpenEXR file hold; `None` when it has none.
-///
-/// # Errors
-/// When the file has them, but cannot be read.
-pub(crate) fn read_errors(path: &Path) -> Result<Option<Picture>, Failure> {
-    if !path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("exr")) {
-        return Ok(None);
-    }
-    let image = exr::prelude::read_first_flat_layer_from_file(path)
-        .map_err(|e| Failure::new(format!("cannot read the layers of {}: {e}", path.display())))?;
-    let (size, channels) = (image.layer_data.size, image.layer_data.channel_data.list);
-    let channel = |name: &str| {
-        let found = channels.iter().find(|channel| channel.name.to_string() == name)?;
-        Some(found.sample_data.values_as_f32().collect::<Vec<f32>>())
-    };
-    let (Some(r), Some(g), Some(b)) = (channel("error.R"), channel("error.G"), channel("error.B")) else {
-        return Ok(None);
-    };
-    let pixels = r.into_iter().zip(g).zip(b).map(|((r, g), b)| Rgb::new(r, g, b)).collect();
-    Ok(Some(Picture { width: size.x() as u32, height: size.y() as u32, pixels }))
 }
 
 /// Linear RGB, without alpha.

@@ -1,6 +1,7 @@
 //! Encoding pictures as files.
 
 use super::Picture;
+use super::exr::{Header, encode_exr};
 use super::pfm::encode_pfm;
 use crate::args::{Depth, Showing, View};
 use crate::failure::Failure;
@@ -8,7 +9,6 @@ use halflight::Rgb;
 use halflight::num::pow;
 use image::codecs::hdr::HdrEncoder;
 use image::codecs::jpeg::JpegEncoder;
-use image::codecs::openexr::OpenExrEncoder;
 use image::{ExtendedColorType, ImageEncoder};
 use png::{BitDepth, ColorType, ScaledFloat, SourceChromaticities, SrgbRenderingIntent};
 use std::ffi::OsStr;
@@ -93,13 +93,7 @@ impl Format {
                     .write_image(&bytes, width, height, ExtendedColorType::Rgb8)
                     .map_err(refused)?;
             }
-            Self::Exr => {
-                let floats: Vec<u8> =
-                    picture.pixels.iter().flat_map(|p| p.to_array()).flat_map(f32::to_ne_bytes).collect();
-                OpenExrEncoder::new(&mut file)
-                    .write_image(&floats, width, height, ExtendedColorType::Rgb32F)
-                    .map_err(refused)?;
-            }
+            Self::Exr => return encode_exr(picture, Vec::new(), &Header::default()),
             Self::Hdr => {
                 let pixels: Vec<_> = picture.pixels.iter().map(|p| image::Rgb(p.to_array())).collect();
                 HdrEncoder::new(&mut file)

@@ -89,3 +89,16 @@ fn noise_is_told_from_a_difference() {
     let json: Value = serde_json::from_str(&folder.run("compare a.exr sky.exr --json").stdout).unwrap();
     assert_eq!((&json["passed"], &json["noise"]["agree"]), (&false.into(), &false.into()));
 }
+
+#[test]
+fn parts_of_a_film_are_compared_in_their_place() {
+    let folder = Folder::new();
+    for (name, crop) in [("a.exr", "4,4,12,12"), ("b.exr", "4,4,12,12"), ("c.exr", "0,0,24,16")] {
+        folder.good(&format!("render scene.xml -o {name} --quiet --crop {crop}"));
+    }
+    folder.good("compare a.exr b.exr --max-relmse 0");
+    let json: Value = serde_json::from_str(&folder.good("compare a.exr c.exr --json")).unwrap();
+    assert!(json["mean_ratio"].as_f64().is_some_and(|ratio| ratio < 0.9), "black around it: {json}");
+    folder.good("render scene.xml -o a.pfm --quiet --crop 4,4,12,12");
+    folder.good("compare a.exr a.pfm --max-relmse 0");
+}

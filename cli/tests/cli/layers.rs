@@ -69,3 +69,19 @@ fn layers_without_a_place_are_refused() {
     let line = "render scene.xml --visibility-image v.png --technique bsdf";
     assert!(folder.refused(line).contains("samples no light"));
 }
+
+#[test]
+fn the_header_tells_of_the_render() {
+    let folder = Folder::new();
+    folder.good("render scene.xml -o a.exr --spp 8 --seed 3 --threads 1");
+    folder.good("render scene.xml -o b.exr --spp 8 --seed 3 --threads 2");
+    assert_eq!(folder.bytes("a.exr"), folder.bytes("b.exr"), "equal renders are equal files");
+    let image = exr::prelude::read_first_flat_layer_from_file(folder.path("a.exr")).unwrap();
+    let own = &image.layer_data.attributes;
+    let comment = own.comments.as_ref().unwrap().to_string();
+    assert!(comment.starts_with("scene, 8 samples/pixel, seed 3, error "), "{comment}");
+    let settings = own.other.values().next().unwrap().to_text().unwrap().to_string();
+    let settings: serde_json::Value = serde_json::from_str(&settings).unwrap();
+    assert_eq!((&settings["seed"], &settings["choices"]["sequence"]), (&3.into(), &"zsobol".into()));
+    assert!(settings["relative_error"].as_f64().is_some_and(|e| e > 0.0), "{settings}");
+}
