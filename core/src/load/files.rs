@@ -1,10 +1,11 @@
 //! Where the files of a scene are: on the disk, or in memory.
 
-use std::collections::BTreeMap;
+use std::borrow::ToOwned;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File};
 use std::io::{self, BufReader, Cursor, ErrorKind, Read, Seek, SeekFrom};
 use std::path::{Component, Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 use std::vec::Vec;
 
 /// Where the files of a scene are.
@@ -12,13 +13,38 @@ use std::vec::Vec;
 pub struct Files {
     /// By path; `None` is the disk.
     memory: Option<Arc<BTreeMap<PathBuf, Arc<[u8]>>>>,
+    /// Those asked for so far, if they are kept.
+    seen: Option<Arc<Mutex<BTreeSet<PathBuf>>>>,
 }
 
 impl Files {
     /// Those of the disk.
     #[must_use]
     pub const fn on_disk() -> Self {
-        Self { memory: None }
+        Self { memory: None, seen: None }
+    }
+
+    /// The same files; [`Files::seen`] tells which were asked for.
+    #[must_use]
+    pub fn recorded(self) -> Self {
+        Self { seen: Some(Arc::default()), ..self }
+    }
+
+    /// The files that were asked for since [`Files::recorded`], missing ones among them, in order of their
+    /// paths.
+    #[must_use]
+    pub fn seen(&self) -> Vec<PathBuf> {
+        let seen = self.seen.as_ref().and_then(|seen| seen.lock().ok());
+        seen.map(|seen| seen.iter().cloned().collect()).unwrap_or_default()
+    }
+
+    /// Keeps that a file was asked for.
+    fn record(&self, path: &Path) {
+        if let Some(Ok(mut seen)) = self.seen.as_ref().map(|seen| seen.lock())
+            && !seen.contains(path)
+        {
+            seen.insert(path.to_owned());
+        }
     }
 
     /// Some that are in memory, by path, and no others. A file is also found by its name alone, where
@@ -26,11 +52,12 @@ impl Files {
     #[must_use]
     pub fn in_memory(files: impl IntoIterator<Item = (PathBuf, Vec<u8>)>) -> Self {
         let files = files.into_iter().map(|(path, bytes)| (plain(&path), Arc::from(bytes)));
-        Self { memory: Some(Arc::new(files.collect())) }
+        Self { memory: Some(Arc::new(files.collect())), seen: None }
     }
 
     /// Opens a file; with its length in bytes.
     pub(super) fn open(&self, path: &Path) -> io::Result<(BufReader<Opened>, u64)> {
+        self.record(path);
         let (file, bytes) = match &self.memory {
             None => {
                 let file = File::open(path)?;
@@ -47,6 +74,7 @@ impl Files {
 
     /// All bytes of a file.
     pub(super) fn read(&self, path: &Path) -> io::Result<Vec<u8>> {
+        self.record(path);
         match &self.memory {
             None => fs::read(path),
             Some(files) => find(files, path).map(|bytes| bytes.to_vec()).ok_or_else(not_given),
@@ -55,6 +83,7 @@ impl Files {
 
     /// True when there is such a file.
     pub(super) fn has(&self, path: &Path) -> bool {
+        self.record(path);
         match &self.memory {
             None => path.exists(),
             Some(files) => find(files, path).is_some(),
@@ -143,6 +172,16 @@ mod tests {
         assert_eq!((read("x.ply"), read("z.ply"), read("")), (None, None, None));
         assert!(files.has(Path::new("../top.xml")) && !files.has(Path::new("Top.xml")));
         assert_eq!(files.canonical(Path::new("a/../top.xml")), Some(PathBuf::from("top.xml")));
+    }
+
+    #[test]
+    fn what_was_asked_for_is_known() {
+        let files = files(&["a/x.ply"]).recorded();
+        assert!(files.seen().is_empty());
+        let same = files.clone();
+        let _ =
+            (same.open(Path::new("b.xml")), same.read(Path::new("a/x.ply")), same.read(Path::new("b.xml")));
+        assert_eq!(files.seen(), [PathBuf::from("a/x.ply"), PathBuf::from("b.xml")]);
     }
 
     #[test]
