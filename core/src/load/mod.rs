@@ -15,6 +15,7 @@ mod mesh;
 mod mesh_error;
 mod mitsuba;
 mod obj;
+mod path;
 mod ply;
 mod serialized;
 mod suggest;
@@ -26,6 +27,7 @@ pub use image::{
     Encoding, ImageError, MAX_TEXELS, read_image, read_image_from, read_texels, srgb_to_linear, write_exr,
 };
 pub use mesh_error::MeshError;
+pub use path::CameraPath;
 
 use crate::build::Description;
 use std::path::Path;
@@ -46,6 +48,8 @@ pub struct LoadOptions {
 pub struct Loaded {
     /// The scene.
     pub description: Description,
+    /// The way of a camera that moves: through the sensors of a Mitsuba scene, or by glTF's animation.
+    pub camera_path: Option<CameraPath>,
     /// What was read, but not as written.
     pub warnings: Vec<Warning>,
 }

@@ -1,6 +1,7 @@
 //! Scenes as files: what is read, what is refused and how, and what is written.
 #![cfg(feature = "load")]
 
+mod camera_paths;
 mod environments;
 mod errors;
 mod export;

@@ -162,6 +162,7 @@ impl<'b> Elements<'b> {
         let width = match kind {
             "VEC2" => 2,
             "VEC3" => 3,
+            "VEC4" => 4,
             _ => 1,
         };
         let component = Component::new(accessor.component_type).map_err(malformed)?;

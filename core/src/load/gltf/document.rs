@@ -26,6 +26,7 @@ pub(super) struct Document {
     pub(super) images: Vec<Image>,
     pub(super) samplers: Vec<Sampler>,
     pub(super) cameras: Vec<Camera>,
+    pub(super) animations: Vec<Animation>,
 }
 
 /// The version only: that of glTF 1.0 looks different everywhere else.
@@ -89,7 +90,7 @@ pub(super) struct Scene {
     pub(super) nodes: Vec<usize>,
 }
 
-#[derive(Debug, Default, Deserialize)]
+#[derive(Debug, Clone, Default, Deserialize)]
 #[serde(default)]
 pub(super) struct Node {
     pub(super) name: Option<String>,
@@ -104,14 +105,14 @@ pub(super) struct Node {
     pub(super) extensions: NodeExtensions,
 }
 
-#[derive(Debug, Default, Deserialize)]
+#[derive(Debug, Clone, Default, Deserialize)]
 #[serde(default)]
 pub(super) struct NodeExtensions {
     #[serde(rename = "KHR_lights_punctual")]
     pub(super) light: Option<LightOfNode>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 pub(super) struct LightOfNode {
     pub(super) light: usize,
 }
@@ -280,14 +281,14 @@ pub(super) struct Sampler {
     pub(super) wrap_t: Option<u32>,
 }
 
-#[derive(Debug, Default, Deserialize)]
+#[derive(Debug, Clone, Default, Deserialize)]
 #[serde(default)]
 pub(super) struct Camera {
     pub(super) perspective: Option<Perspective>,
     pub(super) orthographic: Option<Orthographic>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Perspective {
     pub(super) aspect_ratio: Option<f32>,
@@ -298,10 +299,36 @@ pub(super) struct Perspective {
 }
 
 /// Half of the window's width and height, and the ends (m).
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 pub(super) struct Orthographic {
     pub(super) xmag: f32,
     pub(super) ymag: f32,
     pub(super) znear: f32,
     pub(super) zfar: f32,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct Animation {
+    pub(super) channels: Vec<Channel>,
+    pub(super) samplers: Vec<AnimationSampler>,
+}
+
+#[derive(Debug, Deserialize)]
+pub(super) struct Channel {
+    pub(super) sampler: usize,
+    pub(super) target: Target,
+}
+
+#[derive(Debug, Deserialize)]
+pub(super) struct Target {
+    pub(super) node: Option<usize>,
+    pub(super) path: String,
+}
+
+#[derive(Debug, Deserialize)]
+pub(super) struct AnimationSampler {
+    pub(super) input: usize,
+    pub(super) output: usize,
+    pub(super) interpolation: Option<String>,
 }

@@ -7,6 +7,7 @@
 //! bytes that there are, and a node is visited once.
 
 mod accessor;
+mod animation;
 mod camera;
 mod container;
 mod document;
@@ -20,7 +21,9 @@ mod source;
 mod texture;
 
 use super::framing::{FILM, framing_camera};
-use super::{Files, LoadError, LoadOptions, Loaded};
+pub(super) use animation::Moves;
+
+use super::{CameraPath, Files, LoadError, LoadOptions, Loaded};
 use crate::Rgb;
 use crate::build::{Description, IntegratorDescription};
 use crate::light::{AnyLight, Constant};
@@ -54,8 +57,15 @@ pub(super) fn load(files: &Files, path: &Path, options: &LoadOptions) -> Result<
     if parts.objects.is_empty() {
         return Err(LoadError::Empty { path: path.to_owned() });
     }
+    let camera_path = match parts.camera_node {
+        Some(node) => {
+            let moves = animation::read(&source, &mut log, node);
+            moves.map_err(|problem| item(path, "animations", problem))?.map(CameraPath::animated)
+        }
+        None => None,
+    };
     let description = describe(parts, &mut log, path)?;
-    Ok(Loaded { description, warnings: log.into_warnings() })
+    Ok(Loaded { description, camera_path, warnings: log.into_warnings() })
 }
 
 /// Puts the parts together; a camera and a light where there is none.

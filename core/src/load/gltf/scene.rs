@@ -23,6 +23,8 @@ const MAX_TRIANGLES: usize = 1 << 25;
 #[derive(Debug, Default)]
 pub(super) struct Parts {
     pub(super) camera: Option<(CameraDescription, u32)>,
+    /// The node that has it.
+    pub(super) camera_node: Option<usize>,
     pub(super) objects: Vec<Object>,
     pub(super) lights: Vec<AnyLight<'static>>,
     pub(super) materials: Materials,
@@ -49,6 +51,9 @@ impl Parts {
             }
             let to_world = transform(node).map(|own| parent * own).map_err(|problem| fail(&name, problem))?;
             parts.visit(source, log, &name, node, &to_world)?;
+            if parts.camera.is_some() {
+                parts.camera_node.get_or_insert(index);
+            }
             waiting.extend(node.children.iter().rev().map(|child| (*child, to_world)));
         }
         Ok(parts)
@@ -188,7 +193,7 @@ fn roots(source: &Source<'_>) -> Result<Vec<(usize, DMat4)>, Problem> {
 }
 
 /// From the space of a node to that of its parent.
-fn transform(node: &Node) -> Result<DMat4, Problem> {
+pub(super) fn transform(node: &Node) -> Result<DMat4, Problem> {
     let m = match node.matrix {
         Some(matrix) => DMat4::from_cols_array(&matrix),
         None => {

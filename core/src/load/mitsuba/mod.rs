@@ -29,8 +29,8 @@ use std::path::Path;
 pub(super) fn load(files: &Files, path: &Path, options: &LoadOptions) -> Result<Loaded, LoadError> {
     let document = Document::read(files, path, options)?;
     let mut context = Context::new(&document, options.lenient)?;
-    let description = scene::read(&mut context, path)?;
+    let (description, camera_path) = scene::read(&mut context, path)?;
     let mut warnings = context.into_warnings();
     warnings.extend(document.unused_defines());
-    Ok(Loaded { description, warnings })
+    Ok(Loaded { description, camera_path, warnings })
 }

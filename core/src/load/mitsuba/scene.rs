@@ -8,10 +8,12 @@ use super::properties::Properties;
 use super::sensor::Sensor;
 use super::shape::{self, Form};
 use super::{emitter, integrator, sensor};
-use crate::build::{Description, Emission, EnvironmentDescription, IntegratorDescription, Object};
+use crate::build::{
+    CameraDescription, Description, Emission, EnvironmentDescription, IntegratorDescription, Object,
+};
 use crate::light::{AnyLight, Emitter, Portal};
 use crate::load::framing::{FILM, framing_camera};
-use crate::load::{LoadError, Problem};
+use crate::load::{CameraPath, LoadError, Problem};
 use std::borrow::ToOwned;
 use std::path::Path;
 use std::vec::Vec;
@@ -25,6 +27,8 @@ const TAGS: [&str; 10] =
 struct Parts<'e> {
     integrator: Option<(&'e Element, IntegratorDescription)>,
     sensor: Option<Sensor>,
+    /// The sensors after the first; `None` for those that cannot be read.
+    others: Vec<(&'e Element, Option<CameraDescription>)>,
     environment: Option<&'e Element>,
     materials: Materials,
     objects: Vec<Object>,
@@ -33,8 +37,11 @@ struct Parts<'e> {
     portals: Vec<Portal>,
 }
 
-/// The scene of a document.
-pub(super) fn read(context: &mut Context<'_>, path: &Path) -> Result<Description, LoadError> {
+/// The scene of a document, and the way through its sensors.
+pub(super) fn read(
+    context: &mut Context<'_>,
+    path: &Path,
+) -> Result<(Description, Option<CameraPath>), LoadError> {
     let root = &context.document.root;
     let mut parts = Parts::default();
     // Named materials first, in the order of the file; then the others, as they are met.
@@ -49,7 +56,8 @@ pub(super) fn read(context: &mut Context<'_>, path: &Path) -> Result<Description
     if parts.objects.is_empty() && parts.environment.is_none() {
         return Err(LoadError::Empty { path: path.to_owned() });
     }
-    parts.finish(context, root, path)
+    let camera_path = parts.camera_path(context);
+    Ok((parts.finish(context, root, path)?, camera_path))
 }
 
 impl<'e> Parts<'e> {
@@ -76,7 +84,8 @@ impl<'e> Parts<'e> {
 
     fn sensor(&mut self, context: &mut Context<'_>, element: &'e Element) -> Result<(), LoadError> {
         if self.sensor.is_some() {
-            context.warn(element, "only the first sensor is used");
+            let read = sensor::read(context, element);
+            self.others.push((element, read.ok().map(|sensor| sensor.camera)));
             return Ok(());
         }
         self.sensor = Some(sensor::read(context, element)?);
@@ -131,6 +140,19 @@ impl<'e> Parts<'e> {
         let name = element.title().to_owned();
         self.objects.push(Object { name, geometry, material, emission, object_space });
         Ok(())
+    }
+
+    /// From sensor to sensor, where there are several between which a camera can move.
+    fn camera_path(&self, context: &mut Context<'_>) -> Option<CameraPath> {
+        let (second, _) = self.others.first()?;
+        let first = self.sensor.map(|sensor| sensor.camera);
+        let keys: Option<Vec<_>> =
+            core::iter::once(first).chain(self.others.iter().map(|(_, other)| *other)).collect();
+        let path = keys.and_then(CameraPath::through);
+        if path.is_none() {
+            context.warn(second, "only the first sensor is used");
+        }
+        path
     }
 
     fn finish(
