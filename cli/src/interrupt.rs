@@ -2,15 +2,20 @@
 
 use crate::failure::{Failure, INTERRUPTED};
 use std::process;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, OnceLock};
 
-/// Turns the next Ctrl-C into a flag, and the one after into an immediate exit. Call it once.
+/// Turns the next Ctrl-C into a flag, and the one after into an immediate exit. Every call returns the same
+/// flag.
 ///
 /// # Errors
 /// When the system refuses.
 pub(crate) fn on_interrupt() -> Result<Arc<AtomicBool>, Failure> {
-    let flag = Arc::new(AtomicBool::new(false));
+    static FLAG: OnceLock<Arc<AtomicBool>> = OnceLock::new();
+    if let Some(flag) = FLAG.get() {
+        return Ok(Arc::clone(flag));
+    }
+    let flag = Arc::clone(FLAG.get_or_init(Arc::default));
     let seen = Arc::clone(&flag);
     ctrlc::set_handler(move || {
         if seen.swap(true, Ordering::Relaxed) {

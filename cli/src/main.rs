@@ -21,12 +21,14 @@ mod scene;
 mod terminal;
 
 use args::{Command, RenderArgs};
-use commands::{compare, export, inspect, render, scenes, serve, shell, tradeoff};
+use commands::{batch, compare, export, inspect, render, scenes, serve, shell, tradeoff, watch};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
     let result = match args::parse() {
         None => render::run(&RenderArgs::default()),
+        Some(Command::Render(args)) if args.watch => watch::run(&args),
+        Some(Command::Render(args)) if batch::is_asked(&args) => batch::run(&args),
         Some(Command::Render(args)) => render::run(&args),
         Some(Command::Scenes(args)) => scenes::run(&args),
         Some(Command::Export(args)) => export::run(&args),

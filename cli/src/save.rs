@@ -4,8 +4,7 @@ use crate::args::{RenderArgs, Showing};
 use crate::driver::{Rendered, samples};
 use crate::failure::Failure;
 use crate::output::Output;
-use crate::picture::{Format, Layer, Picture, encode_exr};
-use crate::report::Report;
+use crate::picture::{Format, Header, Layer, Picture, encode_exr};
 use halflight::Rgb;
 use halflight::estimate::{LayeredPixel, Pixel, PixelStats};
 use std::path::Path;
@@ -70,7 +69,7 @@ impl Files {
         &self,
         args: &RenderArgs,
         rendered: &Rendered<P>,
-        report: &Report,
+        header: &Header,
     ) -> Result<(), Failure> {
         let (width, height) = rendered.size();
         let picture = |value: &dyn Fn(&P) -> Rgb| Picture { width, height, pixels: rendered.pixels(value) };
@@ -79,7 +78,7 @@ impl Files {
         let bytes = match format {
             Format::Exr => {
                 let layers = if args.layers { layers(rendered) } else { Vec::new() };
-                encode_exr(&radiance, layers, &report.header())?
+                encode_exr(&radiance, layers, header)?
             }
             _ => format.encode(&radiance, &args.showing)?,
         };

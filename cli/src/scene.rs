@@ -5,7 +5,7 @@ use crate::failure::{Failure, without_numbers};
 use crate::terminal;
 use halflight::build::Description;
 use halflight::load::builtin::{BUILTIN, builtin};
-use halflight::load::{LoadOptions, load};
+use halflight::load::{CameraPath, LoadOptions, load_from};
 use std::path::Path;
 
 /// A scene that was read, and what was remarkable about it.
@@ -13,6 +13,8 @@ use std::path::Path;
 pub(crate) struct Found {
     /// The scene.
     pub(crate) description: Description,
+    /// The way of a camera that moves.
+    pub(crate) camera_path: Option<CameraPath>,
     /// What was read, but not as written.
     pub(crate) warnings: Vec<String>,
 }
@@ -60,7 +62,7 @@ fn built_in(name: &str, reading: &SceneArgs) -> Result<Found, Failure> {
     }
     let description =
         builtin(name).ok_or_else(|| Failure::new(format!("there is no built-in scene {name}")))?;
-    Ok(Found { description, warnings: Vec::new() })
+    Ok(Found { description, camera_path: None, warnings: Vec::new() })
 }
 
 /// A scene file.
@@ -73,9 +75,10 @@ fn from_file(path: &Path, reading: &SceneArgs) -> Result<Found, Failure> {
             .tip("name the scene file in it"));
     }
     let options = LoadOptions { defines: reading.define.clone(), lenient: reading.lenient };
-    let loaded = load(path, &options).map_err(|e| Failure::new(without_numbers(&e.to_string())))?;
+    let loaded = load_from(&reading.files, path, &options)
+        .map_err(|e| Failure::new(without_numbers(&e.to_string())))?;
     let warnings = loaded.warnings.iter().map(ToString::to_string).collect();
-    Ok(Found { description: loaded.description, warnings })
+    Ok(Found { description: loaded.description, camera_path: loaded.camera_path, warnings })
 }
 
 /// Neither a file nor a built-in scene.

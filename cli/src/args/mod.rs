@@ -10,12 +10,14 @@ pub(crate) use render::{
 };
 pub(crate) use showing::{Depth, Showing, View};
 pub(crate) use tradeoff::TradeoffArgs;
+pub(crate) use values::Frames;
 
 use clap::builder::Styles;
 use clap::builder::styling::{AnsiColor, Style};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 use halflight::build::Sky;
+use halflight::load::Files;
 use halflight::load::builtin::BUILTIN;
 use std::net::{IpAddr, Ipv4Addr};
 use std::path::PathBuf;
@@ -63,7 +65,7 @@ pub(crate) struct ScenesArgs {
 }
 
 /// Which scene, and how it is read.
-#[derive(Debug, Args, Default)]
+#[derive(Debug, Clone, Args, Default)]
 pub(crate) struct SceneArgs {
     /// Set a parameter of the scene file, as in -D spp=16 (repeatable)
     #[arg(short = 'D', value_name = "NAME=VALUE", value_parser = values::definition)]
@@ -77,6 +79,10 @@ pub(crate) struct SceneArgs {
     /// Leave out what is not supported, with a warning, instead of refusing the scene
     #[arg(long)]
     pub(crate) lenient: bool,
+
+    /// Where the scene's files are.
+    #[arg(skip)]
+    pub(crate) files: Files,
 }
 
 /// `halflight export`

@@ -1,19 +1,23 @@
 //! The arguments of `halflight render`.
 
-use super::values::{crop, depth, positive};
-use super::{SceneArgs, Showing};
+use super::values::{crop, depth, frames, positive};
+use super::{Frames, SceneArgs, Showing};
 use clap::builder::RangedU64ValueParser;
 use clap::{Args, ValueEnum, value_parser};
 use halflight::film::{MAX_RESOLUTION, PixelRect};
 use std::path::PathBuf;
 
 /// `halflight render`
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 pub(crate) struct RenderArgs {
     /// A scene file (Mitsuba 3 XML or glTF 2.0) or the name of a built-in scene [default: the first of
     /// `halflight scenes`]
     #[arg(value_name = "SCENE")]
     pub(crate) scene: Option<PathBuf>,
+
+    /// More scenes, each to a picture of its own: -o out/ or -o 'out/{name}.exr'
+    #[arg(value_name = "MORE")]
+    pub(crate) more: Vec<PathBuf>,
 
     /// The picture: .png, .jpg (sRGB), .exr, .pfm (linear, 32-bit float) or .hdr (linear, RGBE)
     #[arg(short, long, value_name = "OUT", default_value = DEFAULT_OUTPUT)]
@@ -69,6 +73,24 @@ pub(crate) struct RenderArgs {
 
     #[command(flatten)]
     pub(crate) showing: Showing,
+
+    /// Render frames A to B of the camera's way, to OUT with a number: #### or %04d in its name stands for
+    /// it. The way is that of a glTF camera's animation, or through the sensors of a Mitsuba scene, a
+    /// second apart. Frames that exist whole are kept
+    #[arg(long, value_name = "A..B", value_parser = frames, allow_hyphen_values = true)]
+    pub(crate) frames: Option<Frames>,
+
+    /// Frames of a second; frame 0 is at 0 s [default: 24]
+    #[arg(long, value_name = "N", value_parser = positive, allow_negative_numbers = true, requires = "frames")]
+    pub(crate) fps: Option<f32>,
+
+    /// Render again whenever the scene's file or one that it refers to changes, until Ctrl-C
+    #[arg(long, conflicts_with_all = ["frames", "more"])]
+    pub(crate) watch: bool,
+
+    /// With several scenes or frames: render those anew that exist
+    #[arg(long)]
+    pub(crate) overwrite: bool,
 
     /// Which random numbers: the same seed gives the same bits, with any number of threads
     #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true)]
@@ -268,6 +290,7 @@ impl Default for RenderArgs {
     fn default() -> Self {
         Self {
             scene: None,
+            more: Vec::new(),
             output: DEFAULT_OUTPUT.into(),
             spp: None,
             error: None,
@@ -281,6 +304,10 @@ impl Default for RenderArgs {
             height: None,
             crop: None,
             showing: Showing::default(),
+            frames: None,
+            fps: None,
+            watch: false,
+            overwrite: false,
             seed: 0,
             threads: None,
             choices: Choices::default(),

@@ -33,6 +33,29 @@ pub(super) fn depth(text: &str) -> Result<u32, String> {
     }
 }
 
+/// Frames of a camera's way, both ends among them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Frames {
+    /// The first.
+    pub(crate) first: u32,
+    /// The last.
+    pub(crate) last: u32,
+}
+
+/// Most frames: half a day at 24 a second.
+const MOST_FRAMES: u32 = 1 << 20;
+
+/// `a..b`, or `a`.
+pub(super) fn frames(text: &str) -> Result<Frames, String> {
+    let (first, last) = text.split_once("..").unwrap_or((text, text));
+    let number = |text: &str| text.trim().parse::<u32>().ok().filter(|n| *n <= MOST_FRAMES);
+    match (number(first), number(last)) {
+        (Some(first), Some(last)) if first <= last => Ok(Frames { first, last }),
+        (Some(_), Some(_)) => Err("the last frame comes before the first".to_owned()),
+        _ => Err(format!("two whole numbers up to {MOST_FRAMES} are needed, as in 0..47")),
+    }
+}
+
 /// A number that is neither infinite nor NaN.
 pub(super) fn finite(text: &str) -> Result<f32, String> {
     match text.parse() {
@@ -76,6 +99,15 @@ mod tests {
         assert_eq!(crop("1, 2,3,4"), Ok(PixelRect { x0: 1, y0: 2, x1: 3, y1: 4 }));
         for text in ["", "1,2,3", "1,2,3,4,5", "a,b,c,d", "-1,0,2,2", "3,0,3,2", "0,2,3,1", "0,0,1e9,2"] {
             assert!(crop(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn frames_are_from_first_to_last() {
+        assert_eq!(frames("2..10"), Ok(Frames { first: 2, last: 10 }));
+        assert_eq!(frames("7"), Ok(Frames { first: 7, last: 7 }));
+        for text in ["", "..", "1..", "5..4", "-1..4", "0..4000000000", "a..b", "1..2..3"] {
+            assert!(frames(text).is_err(), "{text}");
         }
     }
 

@@ -1,5 +1,6 @@
 //! The commands: one file each.
 
+pub(crate) mod batch;
 pub(crate) mod compare;
 pub(crate) mod export;
 pub(crate) mod inspect;
@@ -7,4 +8,6 @@ pub(crate) mod render;
 pub(crate) mod scenes;
 pub(crate) mod serve;
 pub(crate) mod shell;
+mod shots;
 pub(crate) mod tradeoff;
+pub(crate) mod watch;

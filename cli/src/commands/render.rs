@@ -1,5 +1,6 @@
 //! `halflight render`: a scene to a picture.
 
+use super::batch;
 use crate::args::{Environment, Portals, RenderArgs, Technique};
 use crate::driver::{self, Goal, Rendered};
 use crate::failure::{Exit, Failure};
@@ -23,13 +24,13 @@ use std::time::Instant;
 
 /// A scene ready for rendering.
 #[derive(Debug)]
-struct Prepared {
-    found: Found,
+pub(super) struct Prepared {
+    pub(super) found: Found,
     buffers: SceneBuffers,
-    camera: Camera,
-    film: Film,
+    pub(super) camera: Camera,
+    pub(super) film: Film,
     plan: Plan,
-    goal: Goal,
+    pub(super) goal: Goal,
     seconds: Seconds,
     /// Whether the scene has portals, used or not.
     has_portals: bool,
@@ -37,23 +38,30 @@ struct Prepared {
 
 /// Renders a scene and writes the picture.
 pub(crate) fn run(args: &RenderArgs) -> Result<Exit, Failure> {
+    run_keeping(args, true)
+}
+
+/// Renders a scene, and writes the part that there is at an interrupt when `keeps_parts`.
+fn run_keeping(args: &RenderArgs, keeps_parts: bool) -> Result<Exit, Failure> {
     let begin = Instant::now();
-    plan::check(&args.choices)?;
-    goal::check(args)?;
-    check_visibility(args)?;
+    check(args)?;
     let files = Files::check(args)?;
     let pool = pool(args)?;
     let mut prepared = prepare(args, begin)?;
-    files.format().check_size(prepared.film.crop().width(), prepared.film.crop().height())?;
-    for flag in args.showing.in_vain(files.format()) {
-        prepared.warn(format!("{flag} has no effect on {}", args.output.display()));
-    }
-    without_effect(args, &prepared).into_iter().for_each(|text| prepared.warn(text.to_owned()));
-    if sees_layers(args) {
-        finish::<LayeredPixel>(args, prepared, &files, &pool)
-    } else {
-        finish::<PixelStats>(args, prepared, &files, &pool)
-    }
+    prepared.warn_of(args, &files)?;
+    prepared.picture(args, &files, &pool, keeps_parts)
+}
+
+/// Renders a scene as [`run`] does; what is interrupted is not written.
+pub(super) fn run_whole(args: &RenderArgs) -> Result<Exit, Failure> {
+    run_keeping(args, false)
+}
+
+/// Refuses flags that contradict each other.
+pub(super) fn check(args: &RenderArgs) -> Result<(), Failure> {
+    plan::check(&args.choices)?;
+    goal::check(args)?;
+    check_visibility(args)
 }
 
 /// True when more than the radiance is asked for.
@@ -73,15 +81,21 @@ fn check_visibility(args: &RenderArgs) -> Result<(), Failure> {
 }
 
 /// Renders, writes and reports, with pixels that know as much as is asked for.
+///
+/// * `keeps_parts` – whether what was rendered until an interrupt is written
 fn finish<P: Saved + Default + Clone + Send>(
     args: &RenderArgs,
-    mut prepared: Prepared,
+    prepared: &mut Prepared,
     files: &Files,
     pool: &ThreadPool,
+    keeps_parts: bool,
 ) -> Result<Exit, Failure> {
     let start = Instant::now();
-    let rendered = pool.install(|| render::<P>(args, &prepared))?;
+    let rendered = pool.install(|| render::<P>(args, prepared))?;
     prepared.seconds.render = start.elapsed().as_secs_f64();
+    if rendered.interrupted && !keeps_parts {
+        return Ok(Exit::Interrupted);
+    }
     if rendered.rejected() > 0 {
         let samples = counted(rendered.rejected(), "sample");
         prepared.warn(format!(
@@ -93,7 +107,7 @@ fn finish<P: Saved + Default + Clone + Send>(
     let start = Instant::now();
     {
         let _step = Step::begin(format!("writing {}", args.output.display()), args.quiet);
-        files.write(args, &rendered, &report)?;
+        files.write(args, &rendered, &report.header())?;
     }
     report.seconds.save = start.elapsed().as_secs_f64();
     tell(args, &report)
@@ -126,7 +140,7 @@ fn without_effect(args: &RenderArgs, prepared: &Prepared) -> Vec<&'static str> {
 }
 
 /// The threads that render.
-fn pool(args: &RenderArgs) -> Result<ThreadPool, Failure> {
+pub(super) fn pool(args: &RenderArgs) -> Result<ThreadPool, Failure> {
     let threads = args.threads.unwrap_or_else(|| available_parallelism().map_or(1, usize::from));
     ThreadPoolBuilder::new().num_threads(threads).build().map_err(|e| {
         Failure::new(format!("cannot start {}: {e}", counted(threads as u64, "thread")))
@@ -135,7 +149,7 @@ fn pool(args: &RenderArgs) -> Result<ThreadPool, Failure> {
 }
 
 /// Everything before the first sample.
-fn prepare(args: &RenderArgs, begin: Instant) -> Result<Prepared, Failure> {
+pub(super) fn prepare(args: &RenderArgs, begin: Instant) -> Result<Prepared, Failure> {
     let mut seconds = Seconds::default();
     let name = scene::shown(args.scene.as_deref());
     let (found, has_portals) = {
@@ -168,6 +182,39 @@ fn prepare(args: &RenderArgs, begin: Instant) -> Result<Prepared, Failure> {
 }
 
 impl Prepared {
+    /// Renders, writes and reports, with pixels that know as much as is asked for.
+    pub(super) fn picture(
+        &mut self,
+        args: &RenderArgs,
+        files: &Files,
+        pool: &ThreadPool,
+        keeps_parts: bool,
+    ) -> Result<Exit, Failure> {
+        if sees_layers(args) {
+            finish::<LayeredPixel>(args, self, files, pool, keeps_parts)
+        } else {
+            finish::<PixelStats>(args, self, files, pool, keeps_parts)
+        }
+    }
+
+    /// Warns of what has no effect.
+    ///
+    /// # Errors
+    /// When the picture does not fit its format.
+    pub(super) fn warn_of(&mut self, args: &RenderArgs, files: &Files) -> Result<(), Failure> {
+        files.format().check_size(self.film.crop().width(), self.film.crop().height())?;
+        for flag in args.showing.in_vain(files.format()) {
+            self.warn(format!("{flag} has no effect on {}", args.output.display()));
+        }
+        without_effect(args, self).into_iter().for_each(|text| self.warn(text.to_owned()));
+        if let Some(path) = self.found.camera_path.as_ref().filter(|_| args.frames.is_none()) {
+            let end = path.end();
+            let last = (end * batch::RATE).ceil();
+            self.warn(format!("the camera moves for {end} s: --frames 0..{last} renders its way"));
+        }
+        Ok(())
+    }
+
     /// Prints a warning and keeps it for the report.
     fn warn(&mut self, text: String) {
         terminal::warning(&text);
@@ -248,12 +295,17 @@ fn render<P: Saved + Default + Clone + Send>(
 }
 
 /// The render in numbers.
-fn report<P: Saved>(args: &RenderArgs, prepared: Prepared, rendered: &Rendered<P>, threads: usize) -> Report {
+fn report<P: Saved>(
+    args: &RenderArgs,
+    prepared: &Prepared,
+    rendered: &Rendered<P>,
+    threads: usize,
+) -> Report {
     let stats = prepared.buffers.stats();
     let crop = prepared.film.crop();
     Report {
         file: args.output.clone(),
-        scene: prepared.found.description.name,
+        scene: prepared.found.description.name.clone(),
         size: (crop.width(), crop.height()),
         at: (crop.x0, crop.y0),
         film: (prepared.film.width(), prepared.film.height()),
@@ -270,7 +322,7 @@ fn report<P: Saved>(args: &RenderArgs, prepared: Prepared, rendered: &Rendered<P
         seed: args.seed,
         threads,
         choices: prepared.plan.flags(),
-        warnings: prepared.found.warnings,
+        warnings: prepared.found.warnings.clone(),
     }
 }
 

@@ -1,6 +1,7 @@
 //! The program from end to end: what is typed, what is printed, what lies in the folder afterwards.
 
 mod bad_input;
+mod batch;
 mod bits;
 mod compare;
 mod disk;
@@ -16,3 +17,5 @@ mod results;
 mod serve;
 mod support;
 mod tradeoff;
+#[cfg(unix)]
+mod watch;
