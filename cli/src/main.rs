@@ -14,6 +14,7 @@ mod output;
 mod picture;
 mod plan;
 mod plot;
+mod preview;
 mod progress;
 mod report;
 mod save;

@@ -8,7 +8,7 @@ mod values;
 pub(crate) use render::{
     Adaptive, Choices, Choose, Environment, Heuristic, Lights, Portals, RenderArgs, Sequence, Technique,
 };
-pub(crate) use showing::{Depth, Showing, View};
+pub(crate) use showing::{Depth, PreviewHow, Showing, View};
 pub(crate) use tradeoff::TradeoffArgs;
 pub(crate) use values::Frames;
 

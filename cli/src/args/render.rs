@@ -1,7 +1,7 @@
 //! The arguments of `halflight render`.
 
 use super::values::{crop, depth, frames, positive};
-use super::{Frames, SceneArgs, Showing};
+use super::{Frames, PreviewHow, SceneArgs, Showing};
 use clap::builder::RangedU64ValueParser;
 use clap::{Args, ValueEnum, value_parser};
 use halflight::film::{MAX_RESOLUTION, PixelRect};
@@ -73,6 +73,11 @@ pub(crate) struct RenderArgs {
 
     #[command(flatten)]
     pub(crate) showing: Showing,
+
+    /// Show the picture in the terminal while it is rendered
+    #[arg(long, value_enum, value_name = "HOW", num_args = 0..=1, require_equals = true)]
+    #[arg(default_missing_value = "auto")]
+    pub(crate) preview: Option<PreviewHow>,
 
     /// Render frames A to B of the camera's way, to OUT with a number: #### or %04d in its name stands for
     /// it. The way is that of a glTF camera's animation, or through the sensors of a Mitsuba scene, a
@@ -304,6 +309,7 @@ impl Default for RenderArgs {
             height: None,
             crop: None,
             showing: Showing::default(),
+            preview: None,
             frames: None,
             fps: None,
             watch: false,

@@ -24,6 +24,20 @@ pub(crate) struct Showing {
     pub(crate) quality: Option<u8>,
 }
 
+/// By which protocol a terminal is shown a picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub(crate) enum PreviewHow {
+    /// What the terminal says it speaks, if there is one
+    #[default]
+    Auto,
+    /// Kitty's graphics protocol
+    Kitty,
+    /// Sixels, 216 colours
+    Sixel,
+    /// Half blocks of 24-bit colour
+    Blocks,
+}
+
 /// Bits of a channel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
 pub(crate) enum Depth {

@@ -8,6 +8,7 @@ use crate::goal;
 use crate::interrupt::on_interrupt;
 use crate::number::{bytes, counted, percent};
 use crate::plan::{self, Plan};
+use crate::preview::{Preview, Shown};
 use crate::progress::{RenderBar, Step};
 use crate::report::{Report, Seconds};
 use crate::save::{Files, Saved};
@@ -290,8 +291,10 @@ fn render<P: Saved + Default + Clone + Send>(
         sequence: plan.sequence(args.seed, film.width(), goal.samples()),
     };
     let stop = on_interrupt()?;
-    let bar = RenderBar::new(film.crop().area() as u64, *goal, args.quiet);
-    Ok(driver::render(film.crop(), *goal, &stop, &job, &|event| bar.show(event)))
+    let preview = args.preview.and_then(|how| Preview::begin(how, film.crop(), args.showing));
+    let work = Shown { work: &job, preview: preview.as_ref() };
+    let bar = RenderBar::new(film.crop().area() as u64, *goal, args.quiet || preview.is_some());
+    Ok(driver::render(film.crop(), *goal, &stop, &work, &|event| bar.show(event)))
 }
 
 /// The render in numbers.

@@ -1,9 +1,9 @@
 //! Views: from linear light to the codes that a display is given.
 
 use super::encode;
-use crate::args::View;
+use crate::args::{Showing, View};
 use halflight::Rgb;
-use halflight::num::ln;
+use halflight::num::{ln, pow};
 use std::f32::consts::LOG2_E;
 
 /// A matrix, row by row.
@@ -23,6 +23,14 @@ impl View {
             Self::KhronosNeutral => khronos_neutral(light).map(encode),
             Self::None => light.map(unit),
         }
+    }
+}
+
+impl Showing {
+    /// The codes for linear colours, each in `[0, 1]`.
+    pub(crate) fn codes(&self, pixels: &[Rgb]) -> impl Iterator<Item = [f32; 3]> {
+        let (view, gain) = (self.view.unwrap_or_default(), pow(2.0, self.exposure.unwrap_or(0.0)));
+        pixels.iter().map(move |&p| view.codes(p * gain).to_array())
     }
 }
 

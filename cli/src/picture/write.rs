@@ -5,8 +5,6 @@ use super::exr::{Header, encode_exr};
 use super::pfm::encode_pfm;
 use crate::args::{Depth, Showing, View};
 use crate::failure::Failure;
-use halflight::Rgb;
-use halflight::num::pow;
 use image::codecs::hdr::HdrEncoder;
 use image::codecs::jpeg::JpegEncoder;
 use image::{ExtendedColorType, ImageEncoder};
@@ -88,7 +86,7 @@ impl Format {
             Self::Png => encode_png(&mut file, picture, showing).map_err(refused)?,
             Self::Jpeg => {
                 let quality = showing.quality.unwrap_or(QUALITY);
-                let bytes: Vec<u8> = codes(picture, showing).flat_map(|c| c.map(byte)).collect();
+                let bytes: Vec<u8> = showing.codes(&picture.pixels).flat_map(|c| c.map(byte)).collect();
                 JpegEncoder::new_with_quality(&mut file, quality)
                     .write_image(&bytes, width, height, ExtendedColorType::Rgb8)
                     .map_err(refused)?;
@@ -109,12 +107,6 @@ impl Format {
 /// What an encoder says.
 fn refused(error: impl Display) -> Failure {
     Failure::new(format!("cannot encode the picture: {error}"))
-}
-
-/// The codes of the picture, in `[0, 1]`.
-fn codes(picture: &Picture, showing: &Showing) -> impl Iterator<Item = [f32; 3]> {
-    let (view, gain) = (showing.view.unwrap_or_default(), pow(2.0, showing.exposure.unwrap_or(0.0)));
-    picture.pixels.iter().map(move |&p: &Rgb| view.codes(p * gain).to_array())
 }
 
 /// A code in 8 bits.
@@ -148,7 +140,7 @@ fn encode_png(
         encoder.set_source_gamma(ScaledFloat::new(0.454_55));
         encoder.set_source_chromaticities(rec_709());
     }
-    let codes = codes(picture, showing);
+    let codes = showing.codes(&picture.pixels);
     let (depth, bytes): (_, Vec<u8>) = match showing.depth.unwrap_or_default() {
         Depth::Eight => (BitDepth::Eight, codes.flat_map(|c| c.map(byte)).collect()),
         Depth::Sixteen => (BitDepth::Sixteen, codes.flatten().flat_map(two_bytes).collect()),
@@ -163,6 +155,7 @@ fn encode_png(
 mod tests {
     use super::*;
     use crate::picture::read;
+    use halflight::Rgb;
 
     #[test]
     fn the_extension_decides_whatever_its_case() {
@@ -177,9 +170,9 @@ mod tests {
     #[test]
     fn exposure_doubles_with_every_stop() {
         let picture = Picture { width: 1, height: 1, pixels: vec![Rgb::splat(0.25)] };
-        let code = |exposure| codes(&picture, &Showing::exposed(exposure)).next().unwrap()[0];
+        let code = |exposure| Showing::exposed(exposure).codes(&picture.pixels).next().unwrap()[0];
         assert!((code(2.0) - 1.0).abs() < 1e-6);
-        assert_eq!(Some([code(0.0); 3]), codes(&picture, &Showing::default()).next());
+        assert_eq!(Some([code(0.0); 3]), Showing::default().codes(&picture.pixels).next());
         assert!(code(1.0) > code(0.0));
         assert_eq!((byte(code(1e30)), code(-1e30)), (255, 0.0));
     }

@@ -174,3 +174,17 @@ fn an_exported_scene_renders_to_the_same_picture() {
     folder.good("render cornell.xml -o b.exr --width 32 --spp 4 --quiet");
     folder.good("compare b.exr a.exr --max-relmse 1e-4");
 }
+
+#[test]
+fn a_preview_is_shown_on_a_terminal_or_when_forced() {
+    let folder = Folder::new();
+    let run = folder.run("render scene.xml -o a.png --preview");
+    assert_eq!((run.code, run.stdout.lines().count()), (Some(0), 1), "{run:?}");
+    assert!(run.stderr.contains("--preview has no effect"), "{run:?}");
+    for (how, mark) in [("blocks", "▀"), ("kitty", "\u{1b}_Ga=T"), ("sixel", "\u{1b}Pq")] {
+        let shown = folder.good(&format!("render scene.xml -o b.png --preview={how} --error 5"));
+        assert!(shown.contains(mark), "{how}: {shown:?}");
+    }
+    folder.good("render scene.xml -o b.png --preview=blocks");
+    assert_eq!(folder.bytes("a.png"), folder.bytes("b.png"));
+}
