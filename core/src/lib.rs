@@ -13,8 +13,15 @@
 //! L_o(p, ω_o) = L_e(p, ω_o) + Σ_lights ∫ f_r L_e V G dA,      G = cos θ_i cos θ' / d²
 //! ```
 //!
-//! [`estimate::Direct`] samples either form, or both and weighs them. `V`, the fraction of the light
-//! that is seen, is what makes umbra (0), penumbra (between) and light (1).
+//! `V`, the fraction of the light that is seen, is what makes umbra (0), penumbra (between) and light (1).
+//! [`estimate::Direct`] estimates either form with n samples of each light, taken at places x (m⁻²) or
+//! in directions ω (sr⁻¹) of known density p,
+//!
+//! ```text
+//! L_o ≈ L_e + Σ_lights 1/n Σ_j  f_r L_e V G / p(x_j)   =   L_e + Σ_lights 1/n Σ_j  f_r L_i V cos θ_j / p(ω_j)
+//! ```
+//!
+//! or takes samples of the BSDF too, and weighs both by what their densities say of each other.
 //!
 //! The crate is `no_std` and allocates nothing: a [`Scene`] is a set of borrowed slices, traversal uses
 //! a stack of fixed size, and everything is generic over the kinds of shape, light and material, so that a
@@ -85,9 +92,9 @@
 //!
 //! # Features
 //!
-//! None is on by default. `bytes` borrows scenes from bytes. `build` makes trees and tables from owned scenes (std), `load` reads scene
-//! files and meshes and has the built-in scenes (std, implies `build`). `small` makes less code, which takes
-//! longer, for firmware; the bits of a picture are the same.
+//! None is on by default. `bytes` borrows scenes from bytes. `build` makes trees and tables from owned scenes
+//! (std), `load` reads scene files and meshes and has the built-in scenes (std, implies `build` and `bytes`).
+//! `small` makes less code, which takes longer, for firmware; the bits of a picture are the same.
 #![no_std]
 #![forbid(unsafe_code)]
 
