@@ -21,19 +21,25 @@ const PAUSE: Duration = Duration::from_millis(250);
 /// A picture that is shown while it is rendered.
 #[derive(Debug)]
 pub(crate) struct Preview {
-    crop: PixelRect,
-    /// Columns and rows of what is shown.
-    size: (u32, u32),
     showing: Showing,
     state: Mutex<State>,
 }
 
 #[derive(Debug)]
 struct State {
-    pixels: Vec<Rgb>,
+    canvas: Canvas,
     screen: Screen,
     /// When it was drawn; `None` before the first time.
     drawn: Option<Instant>,
+}
+
+/// A window of a film, smaller.
+#[derive(Debug)]
+struct Canvas {
+    crop: PixelRect,
+    /// Columns and rows.
+    size: (u32, u32),
+    pixels: Vec<Rgb>,
 }
 
 impl Preview {
@@ -50,27 +56,14 @@ impl Preview {
         let cells = Term::stdout().size_checked().map_or((80, 24), |(r, c)| (u32::from(c), u32::from(r)));
         let protocol = Protocol::new(how, |name| std::env::var(name).ok());
         let screen = Screen::new(protocol, (crop.width(), crop.height()), cells);
-        let size = screen.pixels();
-        let pixels = vec![Rgb::BLACK; size.0 as usize * size.1 as usize];
-        Some(Self { crop, size, showing, state: Mutex::new(State { pixels, screen, drawn: None }) })
+        let canvas = Canvas::new(crop, screen.pixels());
+        Some(Self { showing, state: Mutex::new(State { canvas, screen, drawn: None }) })
     }
 
     /// Takes in a tile, row by row, and draws if it was not just drawn.
     fn update<P: Pixel>(&self, tile: PixelRect, pixels: &[P]) {
         let Ok(mut state) = self.state.lock() else { return };
-        let (width, height) = (self.crop.width(), self.crop.height());
-        // Where a shown pixel begins in the film.
-        let column =
-            |x: u32| self.crop.x0 + (u64::from(x) * u64::from(width) / u64::from(self.size.0)) as u32;
-        let row = |y: u32| self.crop.y0 + (u64::from(y) * u64::from(height) / u64::from(self.size.1)) as u32;
-        for y in (0..self.size.1).filter(|y| (tile.y0..tile.y1).contains(&row(*y))) {
-            for x in (0..self.size.0).filter(|x| (tile.x0..tile.x1).contains(&column(*x))) {
-                let (x1, y1) =
-                    (column(x + 1).clamp(column(x) + 1, tile.x1), row(y + 1).clamp(row(y) + 1, tile.y1));
-                let part = PixelRect { x0: column(x), y0: row(y), x1, y1 };
-                state.pixels[(y * self.size.0 + x) as usize] = mean(tile, pixels, part);
-            }
-        }
+        state.canvas.update(tile, pixels);
         if state.drawn.is_none_or(|drawn| drawn.elapsed() >= PAUSE) {
             self.draw(&mut state);
         }
@@ -78,8 +71,8 @@ impl Preview {
 
     /// Draws it as it is.
     fn draw(&self, state: &mut State) {
-        let pixels: Vec<_> = self.showing.codes(&state.pixels).collect();
-        state.screen.draw(&pixels);
+        let codes: Vec<_> = self.showing.codes(&state.canvas.pixels).collect();
+        state.screen.draw(&codes);
         state.drawn = Some(Instant::now());
     }
 }
@@ -88,6 +81,38 @@ impl Drop for Preview {
     fn drop(&mut self) {
         if let Ok(mut state) = self.state.lock() {
             self.draw(&mut state);
+        }
+    }
+}
+
+impl Canvas {
+    /// All black.
+    fn new(crop: PixelRect, size: (u32, u32)) -> Self {
+        Self { crop, size, pixels: vec![Rgb::BLACK; size.0 as usize * size.1 as usize] }
+    }
+
+    /// The film's column, or row, where one of these begins.
+    fn start(&self, (x, y): (u32, u32)) -> (u32, u32) {
+        let scaled = |n: u32, to: u32, of: u32| (u64::from(n) * u64::from(to) / u64::from(of)) as u32;
+        let Self { crop, size, .. } = self;
+        (crop.x0 + scaled(x, crop.width(), size.0), crop.y0 + scaled(y, crop.height(), size.1))
+    }
+
+    /// Takes in a tile, row by row: each pixel that begins in it becomes the mean of what it covers there.
+    fn update<P: Pixel>(&mut self, tile: PixelRect, pixels: &[P]) {
+        let (width, height) = self.size;
+        for y in 0..height {
+            if !(tile.y0..tile.y1).contains(&self.start((0, y)).1) {
+                continue;
+            }
+            for x in 0..width {
+                let ((x0, y0), (x1, y1)) = (self.start((x, y)), self.start((x + 1, y + 1)));
+                if (tile.x0..tile.x1).contains(&x0) {
+                    let (x1, y1) = (x1.max(x0 + 1).min(tile.x1), y1.max(y0 + 1).min(tile.y1));
+                    let index = (y * width + x) as usize;
+                    self.pixels[index] = mean(tile, pixels, PixelRect { x0, y0, x1, y1 });
+                }
+            }
         }
     }
 }
@@ -141,7 +166,7 @@ mod tests {
     #[test]
     fn a_preview_is_the_mean_of_what_it_covers() {
         let crop = PixelRect { x0: 10, y0: 20, x1: 266, y1: 84 };
-        let preview = Preview::begin(PreviewHow::Blocks, crop, Showing::default()).unwrap();
+        let mut canvas = Canvas::new(crop, (80, 20));
         let tile = |x0: u32, y0: u32| PixelRect { x0, y0, x1: x0 + 32, y1: y0 + 32 };
         for (x, y) in (0..8).flat_map(|x| (0..2).map(move |y| (x, y))) {
             let rect = tile(10 + 32 * x, 20 + 32 * y);
@@ -152,13 +177,10 @@ mod tests {
                     pixel
                 })
                 .collect();
-            preview.update(rect, &pixels);
+            canvas.update(rect, &pixels);
         }
-        let (width, height) = preview.size;
-        assert!(width < 256 && height < 64, "{width} {height}");
-        let state = preview.state.lock().unwrap();
-        for (i, p) in state.pixels.iter().enumerate() {
-            let expected = ((i as u32 % width) as f32 + 0.5) / width as f32;
+        for (i, p) in canvas.pixels.iter().enumerate() {
+            let expected = ((i % 80) as f32 + 0.5) / 80.0;
             assert!((p.g - expected).abs() < 0.02, "{i}: {p:?} is not {expected}");
         }
     }
