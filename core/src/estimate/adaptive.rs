@@ -21,6 +21,8 @@
 //! beside an edge are refined with it: blocks of 4² pixels take a fifth more samples, of 8² half as many
 //! again.
 
+mod words;
+
 use super::convergence::{ErrorEstimate, PRIOR_RATE, RATE};
 use super::hidden::behind_samples;
 use super::{DifferenceSums, Known, Pixel, Target};

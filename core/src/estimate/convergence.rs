@@ -84,6 +84,21 @@ impl DifferenceSums {
         Self { sum, squares: 0.0, pixels }
     }
 
+    /// Every bit of it, for keeping it elsewhere.
+    #[must_use]
+    pub const fn to_words(self) -> [u64; 3] {
+        [self.sum.to_bits(), self.squares.to_bits(), self.pixels]
+    }
+
+    /// What [`DifferenceSums::to_words`] was made from. `None` when the words are no sums: one is
+    /// negative or not finite.
+    #[must_use]
+    pub fn from_words([sum, squares, pixels]: [u64; 3]) -> Option<Self> {
+        let [sum, squares] = [sum, squares].map(f64::from_bits);
+        let is_sum = |v: f64| v >= 0.0 && v < f64::INFINITY;
+        (is_sum(sum) && is_sum(squares)).then_some(Self { sum, squares, pixels })
+    }
+
     /// Mean over pixels and channels; `None` without any.
     pub(super) fn mean(&self) -> Option<f64> {
         (self.pixels > 0).then(|| self.sum / self.pixels as f64)
@@ -226,6 +241,18 @@ mod tests {
     use super::*;
     use crate::estimate::{PixelStats, passes};
     use crate::sequence::{Dimension, Random, Sequence, Sobol};
+
+    #[test]
+    fn words_keep_every_bit_of_the_sums() {
+        let mut sums = DifferenceSums::default();
+        sums.add(Rgb::splat(0.1), Rgb::splat(0.3), 3, 7);
+        sums.add(Rgb::splat(1e-20), Rgb::splat(2e9), 1, 2);
+        assert_eq!(DifferenceSums::from_words(sums.to_words()), Some(sums));
+        for bad in [f64::NAN, f64::INFINITY, -1.0] {
+            assert_eq!(DifferenceSums::from_words([bad.to_bits(), 0, 1]), None, "{bad}");
+            assert_eq!(DifferenceSums::from_words([0, bad.to_bits(), 1]), None, "{bad}");
+        }
+    }
 
     /// Estimated and true relMSE of a picture of `pixels` integrals of `f(pixel, point)`.
     fn errors(

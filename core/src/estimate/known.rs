@@ -90,6 +90,27 @@ impl Known {
         self.met
     }
 
+    /// Every bit of it, for keeping it elsewhere: what is met, and the lights.
+    pub(super) fn to_words(self) -> [u32; 2] {
+        let met = match self.met {
+            Met::Various => 0,
+            Met::Nothing => 1,
+            Met::Surface(index) => index.saturating_add(2),
+        };
+        [met, u32::from(self.lit) | u32::from(self.flat) << 8]
+    }
+
+    /// What [`Known::to_words`] was made from; `None` when the words are not.
+    pub(super) fn from_words([met, lights]: [u32; 2]) -> Option<Self> {
+        let met = match met {
+            0 => Met::Various,
+            1 => Met::Nothing,
+            index => Met::Surface(index - 2),
+        };
+        let [lit, flat, 0, 0] = lights.to_le_bytes() else { return None };
+        Some(Self { met, lit, flat })
+    }
+
     /// What a camera ray meets first.
     #[inline]
     pub(super) fn first_hit<S: Shape, L: Emitter, M: Material, const STACK: usize>(

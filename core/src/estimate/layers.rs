@@ -50,6 +50,36 @@ impl LayeredPixel {
     }
 }
 
+impl LayeredPixel {
+    /// Every bit of it, for keeping it elsewhere: those of its radiance, the samples that met a surface,
+    /// and as bits of `f32` albedo, normal, depth, and the light that arrives and that could.
+    #[must_use]
+    pub const fn to_words(&self) -> [u32; 18] {
+        let [a, b, c, d, e, f, g, h] = self.stats.to_words();
+        let w = f32::to_bits;
+        let (i, j, k) = (w(self.albedo.r), w(self.albedo.g), w(self.albedo.b));
+        let (l, m, n) = (w(self.normal.x), w(self.normal.y), w(self.normal.z));
+        let (depth, arriving, unblocked) = (w(self.depth), w(self.arriving), w(self.unblocked));
+        [a, b, c, d, e, f, g, h, self.surfaces, i, j, k, l, m, n, depth, arriving, unblocked]
+    }
+
+    /// What [`LayeredPixel::to_words`] was made from.
+    #[must_use]
+    pub const fn from_words(words: [u32; 18]) -> Self {
+        let [a, b, c, d, e, f, g, h, surfaces, i, j, k, l, m, n, depth, arriving, unblocked] = words;
+        let float = f32::from_bits;
+        Self {
+            stats: PixelStats::from_words([a, b, c, d, e, f, g, h]),
+            surfaces,
+            albedo: Rgb::new(float(i), float(j), float(k)),
+            normal: Vec3::new(float(l), float(m), float(n)),
+            depth: float(depth),
+            arriving: float(arriving),
+            unblocked: float(unblocked),
+        }
+    }
+}
+
 impl Observer for LayeredPixel {
     fn surface(&mut self, at: &Interaction, toward: Vec3, albedo: impl FnOnce() -> Rgb) {
         let albedo = albedo();
@@ -86,6 +116,14 @@ impl Pixel for LayeredPixel {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn words_keep_every_bit() {
+        let words = core::array::from_fn(|i| (i as f32 + 0.1).to_bits());
+        let pixel = LayeredPixel::from_words(words);
+        assert_eq!(pixel.to_words(), words);
+        assert_eq!((pixel.albedo().b, pixel.normal().x, pixel.depth()), (11.1, 12.1, 15.1));
+    }
 
     #[test]
     fn visibility_is_the_part_that_arrives_by_weight() {

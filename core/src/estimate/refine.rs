@@ -34,7 +34,7 @@ impl<S: Shape, L: Emitter, M: Material, E: Estimator, Q: Sequence + Clone> Job<'
                 break;
             }
             let Some((part, samples, known)) = tile.block(index) else { continue };
-            let end = samples.saturating_mul(2).clamp(1, target.most());
+            let end = samples.saturating_mul(2).clamp(1, target.most()).max(samples);
             let observe = |ray: &Ray, reach, sequence: &mut Q, pixel: &mut P| {
                 self.estimator.observe_known(&self.scene, known, ray, reach, sequence, pixel)
             };
