@@ -12,6 +12,7 @@ pub(crate) use showing::{Depth, PreviewHow, Showing, View};
 pub(crate) use tradeoff::TradeoffArgs;
 pub(crate) use values::Frames;
 
+use anstream::ColorChoice;
 use clap::builder::Styles;
 use clap::builder::styling::{AnsiColor, Style};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
@@ -29,8 +30,41 @@ use std::path::PathBuf;
 #[command(name = "halflight", version, styles = STYLES, max_term_width = 100, after_help = EXIT_CODES)]
 #[command(disable_help_subcommand = true)]
 struct CommandLine {
+    #[arg(
+        long,
+        global = true,
+        value_enum,
+        value_name = "WHEN",
+        default_value_t,
+        hide_possible_values = true
+    )]
+    #[arg(help = "Whether messages have colours: auto (on a terminal, without NO_COLOR), always, never")]
+    color: Color,
+
     #[command(subcommand)]
     command: Option<Command>,
+}
+
+/// Whether messages have colours.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+enum Color {
+    /// On a terminal, if NO_COLOR is not set
+    #[default]
+    Auto,
+    /// Wherever they go
+    Always,
+    /// Nowhere
+    Never,
+}
+
+impl From<Color> for ColorChoice {
+    fn from(color: Color) -> Self {
+        match color {
+            Color::Auto => Self::Auto,
+            Color::Always => Self::Always,
+            Color::Never => Self::Never,
+        }
+    }
 }
 
 /// What to do.
@@ -240,7 +274,9 @@ if one is off by more than noise explains, they disagree, and the exit code is 1
 
 /// Reads the command line; exits on misuse, and after printing help.
 pub(crate) fn parse() -> Option<Command> {
-    CommandLine::try_parse().unwrap_or_else(|error| with_hint(error).exit()).command
+    let line = CommandLine::try_parse().unwrap_or_else(|error| with_hint(error).exit());
+    ColorChoice::from(line.color).write_global();
+    line.command
 }
 
 /// The definition, for what is made from it.

@@ -113,6 +113,17 @@ fn a_view_changes_what_is_shown_and_nothing_else() {
 }
 
 #[test]
+fn colours_are_for_terminals_unless_they_are_asked_for() {
+    let folder = Folder::new();
+    let error = |more: &str| folder.run(&format!("render missing.xml {more}")).stderr;
+    assert!(!error("").contains('\u{1b}') && !error("--color never").contains('\u{1b}'));
+    assert!(error("--color always").starts_with("\u{1b}["), "{}", error("--color always"));
+    let mut command = folder.command("render missing.xml");
+    let forbidden = command.env("NO_COLOR", "1").env("CLICOLOR_FORCE", "0").output().unwrap();
+    assert!(!forbidden.stderr.contains(&0x1b));
+}
+
+#[test]
 fn every_format_holds_the_picture() {
     let folder = Folder::new();
     for (name, more) in [("a.jpg", "--quality 100"), ("a.pfm", ""), ("a.png", "--depth 16"), ("a.exr", "")] {
