@@ -5,7 +5,7 @@ use crate::failure::{Failure, without_numbers};
 use crate::terminal;
 use halflight::build::Description;
 use halflight::load::builtin::{BUILTIN, builtin};
-use halflight::load::{CameraPath, LoadOptions, load_from};
+use halflight::load::{CameraPath, LoadError, LoadOptions, Problem, load_from};
 use std::path::Path;
 
 /// A scene that was read, and what was remarkable about it.
@@ -76,9 +76,28 @@ fn from_file(path: &Path, reading: &SceneArgs) -> Result<Found, Failure> {
     }
     let options = LoadOptions { defines: reading.define.clone(), lenient: reading.lenient };
     let loaded = load_from(&reading.files, path, &options)
-        .map_err(|e| Failure::new(without_numbers(&e.to_string())))?;
+        .map_err(|e| Failure::new(without_numbers(&e.to_string())).tip(tip(&e, reading.lenient)))?;
     let warnings = loaded.warnings.iter().map(ToString::to_string).collect();
     Ok(Found { description: loaded.description, camera_path: loaded.camera_path, warnings })
+}
+
+/// What to do about a scene that is not read.
+const fn tip(error: &LoadError, lenient: bool) -> &'static str {
+    match error {
+        LoadError::Unreadable { .. } => "put the file where the scene looks for it, and let it be read",
+        LoadError::Format { .. } => {
+            "export the scene as .glb, as Blender does, or name the scene file itself"
+        }
+        LoadError::Syntax { .. } | LoadError::Json { .. } => "write, export or copy the file anew",
+        LoadError::Empty { .. } => "export at least one mesh with the scene",
+        LoadError::Element { problem, .. } | LoadError::Item { problem, .. } if !lenient => match **problem {
+            Problem::Unknown { .. } | Problem::NotSupported { .. } => {
+                "mend it there, or leave out what is not supported with --lenient"
+            }
+            _ => "mend it there",
+        },
+        _ => "mend it there",
+    }
 }
 
 /// Neither a file nor a built-in scene.
@@ -89,6 +108,15 @@ fn missing(path: &Path) -> Failure {
     match BUILTIN.iter().map(|b| b.name).min_by_key(near).filter(|known| near(known) <= 2) {
         Some(known) => {
             failure.tip(format!("did you mean {known}? halflight scenes lists the built-in scenes"))
+        }
+        None if path.to_string_lossy().contains("://") => {
+            failure.tip("halflight reads files only: download it first, with all that belongs to it")
+        }
+        None if path.to_string_lossy().contains(['.', '/', '\\']) => {
+            let folder = std::env::current_dir().unwrap_or_default();
+            let folder = folder.display();
+            failure
+                .tip(format!("it is looked for from {folder} on; halflight scenes lists the built-in ones"))
         }
         None => failure.tip("halflight scenes lists the built-in scenes"),
     }

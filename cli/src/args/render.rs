@@ -1,6 +1,6 @@
 //! The arguments of `halflight render`.
 
-use super::values::{crop, depth, frames, positive};
+use super::values::{count, crop, depth, frames, positive};
 use super::{Frames, PreviewHow, SceneArgs, Showing};
 use clap::builder::RangedU64ValueParser;
 use clap::{Args, ValueEnum, value_parser};
@@ -24,7 +24,7 @@ pub(crate) struct RenderArgs {
     pub(crate) output: PathBuf,
 
     /// Samples per pixel [default: what the scene says, or 64]
-    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..), allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = count, allow_negative_numbers = true)]
     #[arg(conflicts_with_all = ["error", "time"])]
     pub(crate) spp: Option<u32>,
 
@@ -38,7 +38,7 @@ pub(crate) struct RenderArgs {
     pub(crate) time: Option<f32>,
 
     /// Most samples of a pixel, with --error or --time [default: 65536]
-    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..), allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = count, allow_negative_numbers = true)]
     pub(crate) max_spp: Option<u32>,
 
     /// Whether samples go where the error is, with --error or --time

@@ -64,6 +64,14 @@ pub(super) fn finite(text: &str) -> Result<f32, String> {
     }
 }
 
+/// A whole number above 0.
+pub(super) fn count(text: &str) -> Result<u32, String> {
+    match text.parse() {
+        Ok(n @ 1..) => Ok(n),
+        _ => Err(format!("a whole number from 1 to {} is needed", u32::MAX)),
+    }
+}
+
 /// A number above 0; may be infinite.
 pub(super) fn positive(text: &str) -> Result<f32, String> {
     match text.parse() {
@@ -99,6 +107,14 @@ mod tests {
         assert_eq!(crop("1, 2,3,4"), Ok(PixelRect { x0: 1, y0: 2, x1: 3, y1: 4 }));
         for text in ["", "1,2,3", "1,2,3,4,5", "a,b,c,d", "-1,0,2,2", "3,0,3,2", "0,2,3,1", "0,0,1e9,2"] {
             assert!(crop(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn counts_are_whole_and_not_0() {
+        assert_eq!(count("64"), Ok(64));
+        for text in ["0", "-1", "1e3", "1.5", "", "5000000000"] {
+            assert!(count(text).is_err(), "{text}");
         }
     }
 

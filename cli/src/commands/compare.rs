@@ -6,6 +6,7 @@ use crate::measure::{Agreement, agreement, flip, heat, ssim};
 use crate::number::significant;
 use crate::output::Output;
 use crate::picture::{Decoded, Format, Picture, encode, read_framed};
+use crate::progress::Step;
 use crate::terminal;
 use halflight::Rgb;
 use serde_json::{Value, json};
@@ -31,6 +32,7 @@ struct Measures {
 /// Compares two pictures.
 pub(crate) fn run(args: &CompareArgs) -> Result<Exit, Failure> {
     let (output, heat_map) = (writable(args.output.as_ref())?, writable(args.heat.as_ref())?);
+    let step = Step::begin("comparing", args.json);
     let (one, other) = aligned(finite(&args.picture)?, finite(&args.reference)?);
     let (picture, reference) = (&one.picture, &other.picture);
     check_sizes(args, picture, reference)?;
@@ -43,6 +45,7 @@ pub(crate) fn run(args: &CompareArgs) -> Result<Exit, Failure> {
     if let Some((format, output)) = output {
         output.write(&format.encode(&difference(picture, reference), &Showing::exposed(args.exposure))?)?;
     }
+    drop(step);
     let passed = args.max_relmse.is_none_or(|most| measures.relmse <= most)
         && noise.is_none_or(|agreement| agreement.holds());
     tell(args, &measures, noise.as_ref(), passed)?;

@@ -25,7 +25,8 @@ pub(crate) fn read(path: &Path) -> Result<Picture, Failure> {
 /// As [`read`].
 pub(crate) fn read_framed(path: &Path) -> Result<Decoded, Failure> {
     let fail = |reason: String| Failure::new(format!("cannot read {}: {reason}", path.display()));
-    let bytes = fs::read(path).map_err(|e| fail(io_reason(&e)))?;
+    let bytes =
+        fs::read(path).map_err(|e| fail(io_reason(&e)).tip("give the name of a picture that is there"))?;
     let decoded = match bytes.as_slice() {
         bytes if is_exr(bytes) => decode_exr(bytes),
         bytes if is_pfm(bytes) => decode_pfm(bytes).map(whole),

@@ -55,7 +55,12 @@ impl Format {
             Some(other) => format!("unknown format .{other}"),
             None => "its name has no extension".to_owned(),
         };
-        Err(Failure::new(format!("cannot write {}: {reason}", path.display())).tip(FORMATS))
+        let failure = Failure::new(format!("cannot write {}: {reason}", path.display()));
+        let name = path.join("NAME.png");
+        Err(match path.is_dir() {
+            true => failure.tip(format!("it is a folder: name a file in it, as in -o {}", name.display())),
+            false => failure.tip(FORMATS),
+        })
     }
 
     /// True for a format whose values are shown as they are, so that a view and an exposure apply.

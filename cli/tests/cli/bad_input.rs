@@ -76,7 +76,33 @@ fn an_empty_file() {
 
 #[test]
 fn xml_that_is_cut_off() {
-    assert!(refused(&Folder::with_scene(&SCENE[..SCENE.len() / 2])).contains("scene.xml:"));
+    let half = &SCENE[..SCENE.len() / 2];
+    let message = refused(&Folder::with_scene(half));
+    let place = format!("scene.xml:{}:", half.matches('\n').count() + 1);
+    assert!(message.contains(&place) && message.contains("it ends here"), "{place}: {message}");
+    assert!(message.contains("tip: write, export or copy the file anew"), "{message}");
+}
+
+#[test]
+fn every_refusal_says_what_to_do() {
+    let folder = Folder::new();
+    fs::write(folder.path("scene.txt"), "").unwrap();
+    fs::write(folder.path("empty.glb"), "").unwrap();
+    fs::create_dir(folder.path("folder")).unwrap();
+    for (line, tip) in [
+        ("render scene.txt", "export the scene as .glb"),
+        ("render empty.glb", "export or copy the file anew"),
+        ("render nowhere/room.glb", "it is looked for from"),
+        ("render https://example.org/room.glb", "download it first"),
+        ("render room", "halflight scenes lists"),
+        ("render scene.xml -o folder", "-o folder/NAME.png"),
+        ("render scene.xml --spp 1e3", "a whole number from 1"),
+        ("compare scene.xml scene.xml", "pictures can be"),
+        ("compare folder nothing.png", "a picture that is there"),
+    ] {
+        let message = folder.refused(line);
+        assert!(message.contains(tip), "{line}: {message}");
+    }
 }
 
 #[test]

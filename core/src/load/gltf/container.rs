@@ -38,7 +38,7 @@ pub(super) fn open(path: &Path, bytes: &[u8], lenient: bool) -> Result<Container
         path: path.to_owned(),
         line: source.line(),
         column: source.column(),
-        what: without_place(source),
+        what: if source.is_eof() { "it ends here".to_owned() } else { without_place(source) },
     };
     let versioned: Versioned = serde_json::from_slice(json).map_err(|e| refused(&e))?;
     let version = versioned.asset.min_version.unwrap_or(versioned.asset.version);

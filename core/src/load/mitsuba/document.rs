@@ -135,6 +135,12 @@ impl Reader {
             ..roxmltree::ParsingOptions::default()
         };
         let tree = roxmltree::Document::parse_with_options(text, options).map_err(|e| {
+            if let roxmltree::Error::UnexpectedEndOfStream | roxmltree::Error::UnclosedRootNode = e {
+                return LoadError::Syntax {
+                    at: source.position(bytes.len()),
+                    what: "it ends here".to_owned(),
+                };
+            }
             let at = e.pos();
             LoadError::Syntax {
                 at: Position { file: path.into(), line: at.row, column: at.col },
