@@ -146,7 +146,7 @@ fn picture(part: &Part<AnyChannels<FlatSamples>>, names: [&str; 3]) -> Option<Pi
     let pixels: Vec<_> = r.zip(g).zip(b).map(|((r, g), b)| Rgb::new(r, g, b)).collect();
     // A channel may have fewer values than there are pixels.
     let whole = pixels.len() == part.size.area();
-    whole.then(|| Picture { width: part.size.0 as u32, height: part.size.1 as u32, pixels })
+    whole.then_some(Picture { width: part.size.0 as u32, height: part.size.1 as u32, pixels })
 }
 
 impl Decoded {
