@@ -22,6 +22,7 @@
 //! ```
 //!
 //! or takes samples of the BSDF too, and weighs both by what their densities say of each other.
+//! [`estimate::Path`] follows the light of other surfaces too.
 //!
 //! The crate is `no_std` and allocates nothing: a [`Scene`] is a set of borrowed slices, traversal uses
 //! a stack of fixed size, and everything is generic over the kinds of shape, light and material, so that a
