@@ -200,9 +200,13 @@ fn two_segments_are_direct_light_to_the_last_bit() {
 #[test]
 fn one_segment_shows_the_lights_alone() {
     let buffers = furnished().build();
-    let lights = samples(&buffers, &Path { max_depth: 1, ..Path::default() });
-    assert!(lights.iter().all(|l| [0.0, 0.2, 3.0, 4.0, 5.0, 6.0].contains(&l.g)), "{lights:?}");
-    assert!(lights.iter().any(|l| l.g > 1.0) && lights.iter().any(|l| l.is_black()));
+    let from = Vec3::new(0.3, 0.5, 0.4);
+    let path = Path { max_depth: 1, ..Path::default() };
+    let toward = |place: Vec3| seen(&buffers, &path, &Ray::new(from, (place - from).normalize()), 16);
+    // The ball of light, the floor, and the wall.
+    assert_eq!(toward(Vec3::new(-1.0, 1.5, -1.0)).mean(), 3.0);
+    assert_eq!(toward(Vec3::ZERO).mean(), 0.0);
+    assert_eq!(toward(Vec3::new(1.0, 0.7, 9.0)).mean(), 0.0);
 }
 
 #[test]
