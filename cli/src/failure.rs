@@ -54,6 +54,11 @@ impl Failure {
         Self { message: format!("{what}: {}", self.message), ..self }
     }
 
+    /// Prints it as a warning: the work goes on.
+    pub(crate) fn warn(&self) {
+        terminal::warning(&self.message);
+    }
+
     /// Prints it on stderr.
     pub(crate) fn report(&self) -> ExitCode {
         terminal::error(&self.message, self.tip.as_deref());

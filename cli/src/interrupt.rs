@@ -1,11 +1,12 @@
-//! Ctrl-C: the first one asks for an end, the second one is an end.
+//! Ctrl-C, or what a scheduler sends before it kills: the first one asks for an end, the second one is an
+//! end.
 
 use crate::failure::{Failure, INTERRUPTED};
 use std::process;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock};
 
-/// Turns the next Ctrl-C into a flag, and the one after into an immediate exit. Every call returns the same
+/// Turns the next Ctrl-C, SIGTERM or SIGHUP into a flag, and the one after into an immediate exit. Every call returns the same
 /// flag.
 ///
 /// # Errors

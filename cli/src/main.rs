@@ -6,8 +6,10 @@ mod args;
 mod commands;
 mod driver;
 mod failure;
+mod fingerprint;
 mod goal;
 mod interrupt;
+mod keep;
 mod measure;
 mod number;
 mod output;
@@ -20,9 +22,10 @@ mod report;
 mod save;
 mod scene;
 mod terminal;
+mod tiles;
 
 use args::{Command, RenderArgs};
-use commands::{batch, compare, export, inspect, render, scenes, serve, shell, tradeoff, watch};
+use commands::{batch, compare, export, inspect, merge, render, scenes, serve, shell, tradeoff, watch};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -31,6 +34,7 @@ fn main() -> ExitCode {
         Some(Command::Render(args)) if args.watch => watch::run(&args),
         Some(Command::Render(args)) if batch::is_asked(&args) => batch::run(&args),
         Some(Command::Render(args)) => render::run(&args),
+        Some(Command::Merge(args)) => merge::run(&args),
         Some(Command::Scenes(args)) => scenes::run(&args),
         Some(Command::Export(args)) => export::run(&args),
         Some(Command::Inspect(args)) => inspect::run(&args),

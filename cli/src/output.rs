@@ -30,6 +30,11 @@ impl Output {
         Ok(output)
     }
 
+    /// Where the bytes go: the file behind a link.
+    pub(crate) fn target(&self) -> &Path {
+        &self.target
+    }
+
     /// As the user wrote it.
     pub(crate) fn path(&self) -> &Path {
         &self.shown

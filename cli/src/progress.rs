@@ -2,6 +2,7 @@
 
 use crate::driver::{Event, Goal};
 use crate::number::{duration, percent, significant};
+use crate::terminal::remark;
 use console::Term;
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 use std::fmt::Write;
@@ -42,6 +43,7 @@ pub(crate) struct RenderBar {
     bar: ProgressBar,
     goal: Goal,
     begin: Instant,
+    quiet: bool,
 }
 
 /// Steps of a bar whose goal is not a number of samples.
@@ -56,12 +58,14 @@ impl RenderBar {
         bar.set_style(style(&template).progress_chars("██░").with_key("left", left));
         bar.set_message(message(0.0, goal, None));
         bar.enable_steady_tick(TICK);
-        Self { bar, goal, begin: Instant::now() }
+        Self { bar, goal, begin: Instant::now(), quiet }
     }
 
     /// Takes in what has happened.
     pub(crate) fn show(&self, event: Event) {
         match (event, self.goal) {
+            (Event::Resumed, _) if self.quiet => {}
+            (Event::Resumed, _) => self.bar.suspend(|| remark("going on from the checkpoint")),
             (Event::Samples(n), Goal::Samples(_)) => self.bar.inc(n),
             (Event::Samples(_), Goal::Time { deadline, .. }) => {
                 let all = deadline.saturating_duration_since(self.begin).as_secs_f64().max(1e-9);

@@ -2,6 +2,7 @@
 
 use crate::number::{counted, duration, percent_within, significant, with_prefix};
 use crate::picture::Header;
+use crate::tiles::Part;
 use halflight::estimate::ErrorEstimate;
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -28,6 +29,10 @@ pub(crate) struct Report {
     pub(crate) scene: String,
     /// Columns and rows of the picture that was written.
     pub(crate) size: (u32, u32),
+    /// Which part of it was rendered; `None` for all.
+    pub(crate) part: Option<Part>,
+    /// Pixels that were rendered.
+    pub(crate) pixels: u64,
     /// First column and row of the film that was rendered.
     pub(crate) at: (u32, u32),
     /// Columns and rows of the film.
@@ -57,7 +62,7 @@ pub(crate) struct Report {
     /// Threads that worked.
     pub(crate) threads: usize,
     /// Choices by the names of their flags.
-    pub(crate) choices: Vec<(&'static str, String)>,
+    pub(crate) choices: Vec<(String, String)>,
     /// What was remarkable.
     pub(crate) warnings: Vec<String>,
 }
@@ -71,7 +76,7 @@ impl Report {
 
     /// Samples per pixel, on average.
     fn mean_samples(&self) -> f64 {
-        self.samples as f64 / (f64::from(self.size.0) * f64::from(self.size.1))
+        self.samples as f64 / self.pixels.max(1) as f64
     }
 
     /// "64 samples/pixel", or "37.2 samples/pixel (16 to 512)" where they differ.
@@ -86,7 +91,7 @@ impl Report {
     }
 
     /// "error 0.98 % ± 0.03", and what half of it costs.
-    fn error(&self) -> String {
+    pub(crate) fn error(&self) -> String {
         let (Some(error), Some(interval)) = (self.error.relative_error(), self.error.interval()) else {
             return "error unknown".to_owned();
         };
@@ -98,9 +103,10 @@ impl Report {
     /// One line for people.
     pub(crate) fn line(&self) -> String {
         let (width, height) = self.size;
+        let part = self.part.map_or_else(String::new, |p| format!("  part {} of {}", p.number, p.of));
         [
             self.file.display().to_string(),
-            format!("{width}×{height}"),
+            format!("{width}×{height}{part}"),
             self.samples_per_pixel(),
             counted(self.triangles, "triangle"),
             counted(self.lights, "light"),
@@ -135,12 +141,13 @@ impl Report {
     /// One object for scripts.
     pub(crate) fn json(&self) -> Value {
         let choices: serde_json::Map<_, _> =
-            self.choices.iter().map(|(flag, value)| ((*flag).to_owned(), json!(value))).collect();
+            self.choices.iter().map(|(flag, value)| (flag.clone(), json!(value))).collect();
         json!({
             "file": self.file.to_string_lossy(),
             "scene": self.scene,
             "width": self.size.0,
             "height": self.size.1,
+            "part": self.part.map(|p| [p.number, p.of]),
             "samples_per_pixel": {
                 "min": self.samples_per_pixel.0,
                 "mean": self.mean_samples(),
@@ -180,6 +187,8 @@ mod tests {
             file: "halflight.png".into(),
             scene: "still-life".into(),
             size: (960, 640),
+            part: None,
+            pixels: 960 * 640,
             at: (0, 0),
             film: (960, 640),
             samples_per_pixel: (64, 64),
@@ -194,7 +203,7 @@ mod tests {
             interrupted: false,
             seed: 0,
             threads: 2,
-            choices: vec![("sequence", "sobol".to_owned())],
+            choices: vec![("sequence".to_owned(), "sobol".to_owned())],
             warnings: Vec::new(),
         }
     }

@@ -1,10 +1,12 @@
 //! The command line: what can be typed, and its typed form.
 
+mod merge;
 mod render;
 mod showing;
 mod tradeoff;
 mod values;
 
+pub(crate) use merge::MergeArgs;
 pub(crate) use render::{
     Adaptive, Choices, Choose, Environment, Heuristic, Lights, Portals, RenderArgs, Sequence, Technique,
 };
@@ -72,6 +74,8 @@ impl From<Color> for ColorChoice {
 pub(crate) enum Command {
     /// Render a scene to a picture
     Render(Box<RenderArgs>),
+    /// Put the parts of a picture together, which render --part has made
+    Merge(MergeArgs),
     /// List the built-in scenes
     Scenes(ScenesArgs),
     /// Write a scene as Mitsuba 3 XML with its meshes beside it, or as Rust source or bytes for firmware

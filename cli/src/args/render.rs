@@ -1,7 +1,8 @@
 //! The arguments of `halflight render`.
 
-use super::values::{count, crop, depth, frames, positive};
+use super::values::{count, crop, depth, frames, part, positive};
 use super::{Frames, PreviewHow, SceneArgs, Showing};
+use crate::tiles::Part;
 use clap::builder::RangedU64ValueParser;
 use clap::{Args, ValueEnum, value_parser};
 use halflight::film::{MAX_RESOLUTION, PixelRect};
@@ -19,7 +20,8 @@ pub(crate) struct RenderArgs {
     #[arg(value_name = "MORE")]
     pub(crate) more: Vec<PathBuf>,
 
-    /// The picture: .png, .jpg (sRGB), .exr, .pfm (linear, 32-bit float) or .hdr (linear, RGBE)
+    /// The picture: .png, .jpg (sRGB), .exr, .pfm (linear, 32-bit float) or .hdr (linear, RGBE);
+    /// with --part: .part
     #[arg(short, long, value_name = "OUT", default_value = DEFAULT_OUTPUT)]
     pub(crate) output: PathBuf,
 
@@ -97,6 +99,16 @@ pub(crate) struct RenderArgs {
     #[arg(long)]
     pub(crate) overwrite: bool,
 
+    /// Render only part I of N into a file for `halflight merge`, which -o names: OUT.part
+    #[arg(long, value_name = "I/N", value_parser = part, conflicts_with_all = ["frames", "more", "watch"])]
+    pub(crate) part: Option<Part>,
+
+    /// Keep what there is every so often in OUT.checkpoint, from where the same command goes on after it
+    /// was killed; the bits are those of a render that was not
+    #[arg(long, value_name = "SECONDS", value_parser = positive, allow_negative_numbers = true)]
+    #[arg(conflicts_with = "watch")]
+    pub(crate) checkpoint: Option<f32>,
+
     /// Which random numbers: the same seed gives the same bits, with any number of threads
     #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true)]
     pub(crate) seed: u32,
@@ -118,6 +130,13 @@ pub(crate) struct RenderArgs {
     /// Print the summary as one JSON object
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+impl RenderArgs {
+    /// True when more than the radiance is asked for.
+    pub(crate) const fn sees_layers(&self) -> bool {
+        self.layers || self.visibility_image.is_some()
+    }
 }
 
 /// Choices that trade time for accuracy; `auto` takes what the scene requires.
@@ -314,6 +333,8 @@ impl Default for RenderArgs {
             fps: None,
             watch: false,
             overwrite: false,
+            part: None,
+            checkpoint: None,
             seed: 0,
             threads: None,
             choices: Choices::default(),

@@ -1,5 +1,6 @@
 //! Values that need more than a number or a word.
 
+use crate::tiles::Part;
 use halflight::build::Sky;
 use halflight::film::PixelRect;
 
@@ -88,6 +89,19 @@ pub(super) fn not_negative(text: &str) -> Result<f64, String> {
     }
 }
 
+/// `I/N`.
+pub(super) fn part(text: &str) -> Result<Part, String> {
+    let numbers =
+        text.split_once('/').and_then(|(i, n)| Some((i.trim().parse().ok()?, n.trim().parse().ok()?)));
+    match numbers {
+        Some((number, of)) if number >= 1 && number <= of && of <= Part::MOST => Ok(Part { number, of }),
+        _ => Err(format!(
+            "the number of the part and that of all parts are needed, as in 3/16: from 1, and at most {}",
+            Part::MOST
+        )),
+    }
+}
+
 /// `name=value`.
 pub(super) fn definition(text: &str) -> Result<(String, String), String> {
     match text.split_once('=') {
@@ -139,6 +153,14 @@ mod tests {
         assert_eq!((depth("-1"), depth("1"), depth("8")), (Ok(u32::MAX), Ok(1), Ok(8)));
         for text in ["0", "-2", "2.5", "", "all"] {
             assert!(depth(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_part_is_one_of_them_all() {
+        assert_eq!(part("3/16"), Ok(Part { number: 3, of: 16 }));
+        for text in ["", "3", "0/4", "5/4", "-1/4", "1/65537", "a/b", "1/2/3"] {
+            assert!(part(text).is_err(), "{text}");
         }
     }
 

@@ -4,6 +4,8 @@ pub(crate) mod batch;
 pub(crate) mod compare;
 pub(crate) mod export;
 pub(crate) mod inspect;
+mod keeping;
+pub(crate) mod merge;
 pub(crate) mod render;
 pub(crate) mod scenes;
 pub(crate) mod serve;

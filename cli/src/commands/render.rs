@@ -1,19 +1,22 @@
 //! `halflight render`: a scene to a picture.
 
 use super::batch;
+use super::keeping::{self, Destination};
 use crate::args::{Environment, Portals, RenderArgs, Technique};
 use crate::driver::{self, Goal, Rendered};
 use crate::failure::{Exit, Failure};
 use crate::goal;
 use crate::interrupt::on_interrupt;
+use crate::keep::Keeper;
 use crate::number::{bytes, counted, percent};
 use crate::plan::{self, Plan};
 use crate::preview::{Preview, Shown};
 use crate::progress::{RenderBar, Step};
 use crate::report::{Report, Seconds};
-use crate::save::{Files, Saved};
+use crate::save::Saved;
 use crate::scene::{self, Found};
 use crate::terminal;
+use crate::tiles::{self, Stored};
 use halflight::build::{Description, SceneBuffers};
 use halflight::estimate::{Job, LayeredPixel, PixelStats};
 use halflight::light::Emitter;
@@ -27,10 +30,10 @@ use std::time::Instant;
 #[derive(Debug)]
 pub(super) struct Prepared {
     pub(super) found: Found,
-    buffers: SceneBuffers,
+    pub(super) buffers: SceneBuffers,
     pub(super) camera: Camera,
     pub(super) film: Film,
-    plan: Plan,
+    pub(super) plan: Plan,
     pub(super) goal: Goal,
     seconds: Seconds,
     /// Whether the scene has portals, used or not.
@@ -46,11 +49,11 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Exit, Failure> {
 fn run_keeping(args: &RenderArgs, keeps_parts: bool) -> Result<Exit, Failure> {
     let begin = Instant::now();
     check(args)?;
-    let files = Files::check(args)?;
+    let to = Destination::check(args)?;
     let pool = pool(args)?;
     let mut prepared = prepare(args, begin)?;
-    prepared.warn_of(args, &files)?;
-    prepared.picture(args, &files, &pool, keeps_parts)
+    prepared.warn_of(args, &to)?;
+    prepared.picture(args, &to, &pool, keeps_parts)
 }
 
 /// Renders a scene as [`run`] does; what is interrupted is not written.
@@ -63,11 +66,6 @@ pub(super) fn check(args: &RenderArgs) -> Result<(), Failure> {
     plan::check(&args.choices)?;
     goal::check(args)?;
     check_visibility(args)
-}
-
-/// True when more than the radiance is asked for.
-fn sees_layers(args: &RenderArgs) -> bool {
-    args.layers || args.visibility_image.is_some()
 }
 
 /// Visibility is seen by light samples.
@@ -84,15 +82,16 @@ fn check_visibility(args: &RenderArgs) -> Result<(), Failure> {
 /// Renders, writes and reports, with pixels that know as much as is asked for.
 ///
 /// * `keeps_parts` – whether what was rendered until an interrupt is written
-fn finish<P: Saved + Default + Clone + Send>(
+fn finish<P: Saved + Stored>(
     args: &RenderArgs,
     prepared: &mut Prepared,
-    files: &Files,
+    to: &Destination,
     pool: &ThreadPool,
     keeps_parts: bool,
 ) -> Result<Exit, Failure> {
+    let keeper = keeping::keeper(args, prepared, to)?;
     let start = Instant::now();
-    let rendered = pool.install(|| render::<P>(args, prepared))?;
+    let rendered = pool.install(|| render::<P>(args, prepared, &keeper))?;
     prepared.seconds.render = start.elapsed().as_secs_f64();
     if rendered.interrupted && !keeps_parts {
         return Ok(Exit::Interrupted);
@@ -106,9 +105,12 @@ fn finish<P: Saved + Default + Clone + Send>(
     prepared.warn_of_missed(&rendered);
     let mut report = report(args, prepared, &rendered, pool.current_num_threads());
     let start = Instant::now();
-    {
+    if let Destination::Picture(files) = to {
         let _step = Step::begin(format!("writing {}", args.output.display()), args.quiet);
         files.write(args, &rendered, &report.header())?;
+    }
+    if !rendered.interrupted {
+        keeper.forget();
     }
     report.seconds.save = start.elapsed().as_secs_f64();
     tell(args, &report)
@@ -140,10 +142,13 @@ fn without_effect(args: &RenderArgs, prepared: &Prepared) -> Vec<&'static str> {
     asked.into_iter().filter(|(in_vain, _)| *in_vain).map(|(_, text)| text).collect()
 }
 
+/// Bytes of a thread's stack: tiles are large where nothing is optimised away.
+const STACK: usize = 16 << 20;
+
 /// The threads that render.
 pub(super) fn pool(args: &RenderArgs) -> Result<ThreadPool, Failure> {
     let threads = args.threads.unwrap_or_else(|| available_parallelism().map_or(1, usize::from));
-    ThreadPoolBuilder::new().num_threads(threads).build().map_err(|e| {
+    ThreadPoolBuilder::new().num_threads(threads).stack_size(STACK).build().map_err(|e| {
         Failure::new(format!("cannot start {}: {e}", counted(threads as u64, "thread")))
             .tip("ask for fewer with --threads")
     })
@@ -187,14 +192,14 @@ impl Prepared {
     pub(super) fn picture(
         &mut self,
         args: &RenderArgs,
-        files: &Files,
+        to: &Destination,
         pool: &ThreadPool,
         keeps_parts: bool,
     ) -> Result<Exit, Failure> {
-        if sees_layers(args) {
-            finish::<LayeredPixel>(args, self, files, pool, keeps_parts)
+        if args.sees_layers() {
+            finish::<LayeredPixel>(args, self, to, pool, keeps_parts)
         } else {
-            finish::<PixelStats>(args, self, files, pool, keeps_parts)
+            finish::<PixelStats>(args, self, to, pool, keeps_parts)
         }
     }
 
@@ -202,10 +207,12 @@ impl Prepared {
     ///
     /// # Errors
     /// When the picture does not fit its format.
-    pub(super) fn warn_of(&mut self, args: &RenderArgs, files: &Files) -> Result<(), Failure> {
-        files.format().check_size(self.film.crop().width(), self.film.crop().height())?;
-        for flag in args.showing.in_vain(files.format()) {
-            self.warn(format!("{flag} has no effect on {}", args.output.display()));
+    pub(super) fn warn_of(&mut self, args: &RenderArgs, to: &Destination) -> Result<(), Failure> {
+        if let Destination::Picture(files) = to {
+            files.format().check_size(self.film.crop().width(), self.film.crop().height())?;
+            for flag in args.showing.in_vain(files.format()) {
+                self.warn(format!("{flag} has no effect on {}", args.output.display()));
+            }
         }
         without_effect(args, self).into_iter().for_each(|text| self.warn(text.to_owned()));
         if let Some(path) = self.found.camera_path.as_ref().filter(|_| args.frames.is_none()) {
@@ -216,6 +223,11 @@ impl Prepared {
         Ok(())
     }
 
+    /// The choices that were made, by the names of their flags.
+    pub(super) fn choices(&self) -> Vec<(String, String)> {
+        self.plan.flags().into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
+    }
+
     /// Prints a warning and keeps it for the report.
     fn warn(&mut self, text: String) {
         terminal::warning(&text);
@@ -223,9 +235,9 @@ impl Prepared {
     }
 
     /// Says which pixels have not reached the error that was asked for.
-    fn warn_of_missed<P>(&mut self, rendered: &Rendered<P>) {
+    fn warn_of_missed<P: Stored>(&mut self, rendered: &Rendered<P>) {
         if let (Goal::Error { target, most, .. }, 1..) = (self.goal, rendered.missed) {
-            let (missed, all) = (counted(rendered.missed, "pixel"), self.film.crop().area());
+            let (missed, all) = (counted(rendered.missed, "pixel"), rendered.area());
             let target = percent(target);
             self.warn(format!(
                 "{missed} of {all} did not reach {target} with {most} samples each; --max-spp allows more"
@@ -243,7 +255,10 @@ fn view(args: &RenderArgs, description: &Description) -> Result<(Film, Camera), 
             Failure::new(e).tip(format!("the film is {width}×{height} pixels; choose --crop within it"))
         })?;
     }
-    check_memory(&film, if sees_layers(args) { size_of::<LayeredPixel>() } else { size_of::<PixelStats>() })?;
+    check_memory(
+        &film,
+        if args.sees_layers() { size_of::<LayeredPixel>() } else { size_of::<PixelStats>() },
+    )?;
     let camera = description.camera.camera(width, height).map_err(Failure::new)?;
     Ok((film, camera))
 }
@@ -277,9 +292,10 @@ fn size(args: &RenderArgs, description: &Description) -> (u32, u32) {
 }
 
 /// Takes the samples.
-fn render<P: Saved + Default + Clone + Send>(
+fn render<P: Saved + Stored>(
     args: &RenderArgs,
     prepared: &Prepared,
+    keeper: &Keeper,
 ) -> Result<Rendered<P>, Failure> {
     let Prepared { buffers, camera, film, plan, goal, .. } = prepared;
     let bound = buffers.bind();
@@ -293,8 +309,10 @@ fn render<P: Saved + Default + Clone + Send>(
     let stop = on_interrupt()?;
     let preview = args.preview.and_then(|how| Preview::begin(how, film.crop(), args.showing));
     let work = Shown { work: &job, preview: preview.as_ref() };
-    let bar = RenderBar::new(film.crop().area() as u64, *goal, args.quiet || preview.is_some());
-    Ok(driver::render(film.crop(), *goal, &stop, &work, &|event| bar.show(event)))
+    let places = tiles::places(film.crop(), driver::side(*goal), keeper.part());
+    let pixels = places.map(|(_, rect)| rect.area() as u64).sum();
+    let bar = RenderBar::new(pixels, *goal, args.quiet || preview.is_some());
+    driver::render(film.crop(), *goal, (&stop, keeper), &work, &|event| bar.show(event))
 }
 
 /// The render in numbers.
@@ -312,6 +330,8 @@ fn report<P: Saved>(
         size: (crop.width(), crop.height()),
         at: (crop.x0, crop.y0),
         film: (prepared.film.width(), prepared.film.height()),
+        part: args.part,
+        pixels: rendered.area(),
         samples_per_pixel: rendered.samples_per_pixel(),
         samples: rendered.samples(),
         triangles: stats.triangles as u64,
@@ -324,7 +344,7 @@ fn report<P: Saved>(
         interrupted: rendered.interrupted,
         seed: args.seed,
         threads,
-        choices: prepared.plan.flags(),
+        choices: prepared.choices(),
         warnings: prepared.found.warnings.clone(),
     }
 }
@@ -333,16 +353,27 @@ fn report<P: Saved>(
 fn tell(args: &RenderArgs, report: &Report) -> Result<Exit, Failure> {
     if report.interrupted {
         let (file, samples) = (report.file.display(), report.samples_per_pixel());
-        terminal::remark(format!("interrupted: {file} holds what was rendered so far, {samples}"));
+        let holds = match args.part {
+            None => format!("{file} holds what was rendered so far, {samples}"),
+            Some(_) => format!("{file} was not written"),
+        };
+        let goes_on = match args.checkpoint {
+            None => "",
+            Some(_) => "; the same command goes on from its checkpoint",
+        };
+        terminal::remark(format!("interrupted: {holds}{goes_on}"));
     }
+    let has_result = !(report.interrupted && args.part.is_some());
     if args.json {
         terminal::json(&report.json())?;
-    } else if !args.quiet {
+    } else if !args.quiet && has_result {
         terminal::result(&report.line())?;
     }
     Ok(match (report.interrupted, report.missed) {
         (true, _) => Exit::Interrupted,
+        // A part is as good as it can be; merge says whether the picture is.
         (false, 0) => Exit::Good,
+        (false, _) if args.part.is_some() => Exit::Good,
         _ => Exit::CheckFailed,
     })
 }

@@ -1,10 +1,10 @@
 //! Several pictures of one scene, which is read and built once.
 
+use super::keeping::Destination;
 use super::render::{Prepared, check, pool, prepare};
 use crate::args::RenderArgs;
 use crate::failure::{Exit, Failure};
 use crate::goal;
-use crate::save::Files;
 use crate::scene;
 use crate::terminal;
 use std::path::PathBuf;
@@ -27,7 +27,7 @@ pub(super) fn shoot(args: &RenderArgs, shots: &[Shot]) -> Result<Exit, Failure> 
     let begin = Instant::now();
     check(args)?;
     let of = |shot: &Shot| RenderArgs { output: shot.output.clone(), ..args.clone() };
-    let files: Vec<_> = shots.iter().map(|shot| Files::check(&of(shot))).collect::<Result<_, _>>()?;
+    let files: Vec<_> = shots.iter().map(|shot| Destination::check(&of(shot))).collect::<Result<_, _>>()?;
     let pool = pool(args)?;
     let mut prepared = prepare(args, begin)?;
     if let Some(files) = files.first() {

@@ -1,7 +1,12 @@
 //! Samples where the error is.
 
-use super::{Event, Loop, Rendered, Tile, Work, each, tiles};
+use super::{Event, Loop, Rendered, Work, area, each, taken, unlocked};
+use crate::failure::Failure;
+use crate::keep::lock;
+use crate::tiles::{Stored, Tile};
 use halflight::estimate::{AdaptiveTile, ErrorEstimate, Pixel, TILE, Target};
+use halflight::film::PixelRect;
+use std::sync::Mutex;
 use std::time::Instant;
 
 /// What a picture is brought to first when its time is limited (relative error, as a fraction).
@@ -17,47 +22,59 @@ const LAST: f64 = 1e-6;
 /// A picture on its way.
 struct Refinement<'l, 'd, W, F, P> {
     all: &'d Loop<'l, W, F>,
-    tiles: Vec<Tile<P, AdaptiveTile>>,
+    tiles: &'d [Mutex<Tile<P, Box<AdaptiveTile>>>],
     samples: u64,
     deadline: Option<Instant>,
 }
 
 impl<W, F: Fn(Event) + Sync> Loop<'_, W, F> {
     /// Refines each tile until it meets the target.
-    pub(super) fn refine_to<P: Pixel + Default + Clone + Send>(&self, target: &Target) -> Rendered<P>
+    pub(super) fn refine_to<P: Stored>(&self, target: &Target) -> Result<Rendered<P>, Failure>
     where
         W: Work<P>,
     {
-        let mut picture = Refinement::new(self, None);
-        picture.refine(target);
-        picture.rendered(Some(target))
+        let tiles = self.begin(TILE)?;
+        self.keeper.while_saving(&tiles, || Refinement::new(self, &tiles, None).refine(target));
+        self.refined(tiles, Some(target))
     }
 
     /// Refines the picture, from one target to the next, until time is up or nothing is left to do.
-    pub(super) fn refine_until<P: Pixel + Default + Clone + Send>(
-        &self,
-        deadline: Instant,
-        most: u32,
-    ) -> Rendered<P>
+    pub(super) fn refine_until<P: Stored>(&self, deadline: Instant, most: u32) -> Result<Rendered<P>, Failure>
     where
         W: Work<P>,
     {
-        let mut picture = Refinement::new(self, Some(deadline));
+        let tiles = self.begin(TILE)?;
+        let mut picture = Refinement::new(self, &tiles, Some(deadline));
         let mut error = FIRST;
         loop {
             picture.refine(&Target::new(error, most));
-            let is_finished = picture.tiles.iter().all(|t| t.state.fewest_samples() >= most);
+            let is_finished = tiles.iter().all(|t| lock(t).state.fewest_samples() >= most);
             if !picture.goes_on() || error < LAST || is_finished {
-                return picture.rendered(None);
+                return self.refined(tiles, None);
             }
             error *= NEXT;
         }
     }
+
+    /// Ends with the picture as it is.
+    fn refined<P: Stored>(
+        &self,
+        tiles: Vec<Mutex<Tile<P, Box<AdaptiveTile>>>>,
+        target: Option<&Target>,
+    ) -> Result<Rendered<P>, Failure> {
+        let interrupted = self.is_stopped();
+        self.keeper.end(&tiles, interrupted)?;
+        Ok(Rendered { interrupted, ..refined(unlocked(tiles), self.crop, target) })
+    }
 }
 
-impl<'l, 'd, W: Work<P>, F: Fn(Event) + Sync, P: Pixel + Default + Clone + Send> Refinement<'l, 'd, W, F, P> {
-    fn new(all: &'d Loop<'l, W, F>, deadline: Option<Instant>) -> Self {
-        Self { all, tiles: tiles(all.crop, TILE, AdaptiveTile::new), samples: 0, deadline }
+impl<'l, 'd, W: Work<P>, F: Fn(Event) + Sync, P: Stored> Refinement<'l, 'd, W, F, P> {
+    fn new(
+        all: &'d Loop<'l, W, F>,
+        tiles: &'d [Mutex<Tile<P, Box<AdaptiveTile>>>],
+        deadline: Option<Instant>,
+    ) -> Self {
+        Self { all, tiles, samples: taken(tiles), deadline }
     }
 
     /// True until time is up or the user wants an end.
@@ -67,40 +84,52 @@ impl<'l, 'd, W: Work<P>, F: Fn(Event) + Sync, P: Pixel + Default + Clone + Send>
 
     /// Takes rounds until each tile meets the target: in each, a step of every tile that does not.
     fn refine(&mut self, target: &Target) {
+        let pixels = area(self.tiles);
         loop {
-            let (all, deadline, first) = (self.all, self.deadline, self.samples == 0);
-            // Every pixel gets its first sample.
-            let go_on = || first || (!all.is_stopped() && deadline.is_none_or(|d| Instant::now() < d));
-            let taken: u64 = each(&mut self.tiles, |tile| {
-                let taken = all.work.refine(&mut tile.state, target, &mut tile.pixels, &go_on);
-                (all.on_progress)(Event::Samples(taken));
-                taken
-            })
-            .into_iter()
-            .sum();
+            let taken: u64 = each(self.tiles, |tile| self.step(tile, target)).into_iter().sum();
             self.samples += taken;
-            all.round(self.samples, &self.error());
+            self.all.round(self.samples, pixels, &self.error());
             if taken == 0 || !self.goes_on() {
                 return;
             }
         }
     }
 
-    /// Estimated error of the picture.
-    fn error(&self) -> ErrorEstimate {
-        self.tiles.iter().fold(ErrorEstimate::default(), |mut sum, tile| {
-            sum.merge(&tile.state.error());
-            sum
-        })
+    /// A step of a tile: whether it counts, and its samples. One that the user has cut short makes a
+    /// checkpoint useless, as what the tile became would depend on when that was.
+    fn step(&self, tile: &mut Tile<P, Box<AdaptiveTile>>, target: &Target) -> (bool, u64) {
+        // Every pixel gets its first sample.
+        let first = tile.state.fewest_samples() == 0;
+        let go_on = || first || self.goes_on();
+        let taken = self.all.work.refine(&mut tile.state, target, &mut tile.pixels, &go_on);
+        (self.all.on_progress)(Event::Samples(taken));
+        let is_whole = !self.all.keeper.has_checkpoint() || go_on();
+        (taken > 0 && is_whole, taken)
     }
 
-    /// The picture as it is.
-    fn rendered(self, target: Option<&Target>) -> Rendered<P> {
-        let missed = target
-            .map_or(0, |target| self.tiles.iter().map(|tile| u64::from(tile.state.missed(target))).sum());
-        let (error, interrupted) = (self.error(), self.all.is_stopped());
-        let done = |Tile { rect, pixels, .. }| Tile { rect, pixels, state: () };
-        let tiles = self.tiles.into_iter().map(done).collect();
-        Rendered { tiles, crop: self.all.crop, error, interrupted, missed }
+    /// Estimated error of the picture.
+    fn error(&self) -> ErrorEstimate {
+        sum_of(self.tiles.iter().map(|tile| lock(tile).state.error()))
     }
+}
+
+/// The picture that tiles make.
+pub(crate) fn refined<P: Pixel>(
+    tiles: Vec<Tile<P, Box<AdaptiveTile>>>,
+    crop: PixelRect,
+    target: Option<&Target>,
+) -> Rendered<P> {
+    let missed =
+        target.map_or(0, |target| tiles.iter().map(|tile| u64::from(tile.state.missed(target))).sum());
+    let error = sum_of(tiles.iter().map(|tile| tile.state.error()));
+    let tiles = tiles.into_iter().map(|tile| (tile.rect, tile.pixels)).collect();
+    Rendered { tiles, crop, error, interrupted: false, missed }
+}
+
+/// The error of a picture from those of its tiles, in their order.
+fn sum_of(errors: impl Iterator<Item = ErrorEstimate>) -> ErrorEstimate {
+    errors.fold(ErrorEstimate::default(), |mut sum, error| {
+        sum.merge(&error);
+        sum
+    })
 }

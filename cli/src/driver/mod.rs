@@ -6,8 +6,11 @@
 mod adaptive;
 mod uniform;
 
+use crate::failure::Failure;
+use crate::keep::{Keeper, lock};
+use crate::tiles::{State, Stored, Tile};
 use halflight::estimate::{
-    AdaptiveTile, DifferenceSums, ErrorEstimate, Estimator, Job, Pixel, PixelStats, Target,
+    AdaptiveTile, DifferenceSums, ErrorEstimate, Estimator, Job, Pixel, PixelStats, TILE, Target,
 };
 use halflight::film::PixelRect;
 use halflight::light::Emitter;
@@ -17,7 +20,11 @@ use halflight::shape::Shape;
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
+
+pub(crate) use adaptive::refined;
+pub(crate) use uniform::passed;
 
 /// What is wanted.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,6 +40,8 @@ pub(crate) enum Goal {
 /// What has happened since the last time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Event {
+    /// The render goes on from a checkpoint.
+    Resumed,
     /// That many samples were taken.
     Samples(u64),
     /// A round has ended, with so many samples per pixel on average, and this estimated relative error.
@@ -83,18 +92,10 @@ where
     }
 }
 
-/// A part of the picture.
-#[derive(Debug)]
-struct Tile<P, T = ()> {
-    rect: PixelRect,
-    pixels: Vec<P>,
-    state: T,
-}
-
-/// A picture with what is known about it.
+/// A picture, or a part of one, with what is known about it.
 #[derive(Debug)]
 pub(crate) struct Rendered<P> {
-    tiles: Vec<Tile<P>>,
+    tiles: Vec<(PixelRect, Vec<P>)>,
     crop: PixelRect,
     /// How good it is.
     pub(crate) error: ErrorEstimate,
@@ -108,27 +109,42 @@ pub(crate) struct Rendered<P> {
 struct Loop<'l, W, F> {
     crop: PixelRect,
     stop: &'l AtomicBool,
+    keeper: &'l Keeper,
     work: &'l W,
     on_progress: &'l F,
 }
 
-/// Renders the window `crop`, on the current rayon pool.
+/// Renders the keeper's part of the window `crop`, on the current rayon pool.
 ///
 /// * `stop` – when it becomes true, no further part is begun; but each pixel gets its first sample
 /// * `on_progress` – called from any thread
-pub(crate) fn render<P: Pixel + Default + Clone + Send>(
+///
+/// # Errors
+/// When the keeper cannot read what it has, or write what it is to keep.
+pub(crate) fn render<P: Stored>(
     crop: PixelRect,
     goal: Goal,
-    stop: &AtomicBool,
+    (stop, keeper): (&AtomicBool, &Keeper),
     work: &impl Work<P>,
     on_progress: &(impl Fn(Event) + Sync),
-) -> Rendered<P> {
-    let all = Loop { crop, stop, work, on_progress };
+) -> Result<Rendered<P>, Failure> {
+    let all = Loop { crop, stop, keeper, work, on_progress };
     match goal {
         Goal::Samples(_) => all.uniform(goal),
         Goal::Error { adaptive, .. } | Goal::Time { adaptive, .. } if !adaptive => all.uniform(goal),
         Goal::Error { target, most, .. } => all.refine_to(&Target::new(target, most)),
         Goal::Time { deadline, most, .. } => all.refine_until(deadline, most),
+    }
+}
+
+/// Side of a tile in pixels: with many samples per pixel, smaller tiles, so that stopping at the next
+/// one does not take long.
+pub(crate) const fn side(goal: Goal) -> u32 {
+    match goal {
+        Goal::Error { adaptive: true, .. } | Goal::Time { adaptive: true, .. } => TILE,
+        Goal::Samples(0..=1024) => 32,
+        Goal::Samples(1025..=16_384) => 16,
+        _ => 8,
     }
 }
 
@@ -139,37 +155,56 @@ impl<W, F: Fn(Event) + Sync> Loop<'_, W, F> {
     }
 
     /// Tells of a round's end.
-    fn round(&self, samples: u64, error: &ErrorEstimate) {
-        let samples = samples as f64 / self.crop.area() as f64;
+    fn round(&self, samples: u64, pixels: u64, error: &ErrorEstimate) {
+        let samples = samples as f64 / pixels.max(1) as f64;
         (self.on_progress)(Event::Round { samples, error: error.relative_error() });
+    }
+
+    /// The tiles to begin with: those of the checkpoint, if there is one.
+    fn begin<P: Stored, S: State>(&self, side: u32) -> Result<Vec<Mutex<Tile<P, S>>>, Failure> {
+        let tiles = self.keeper.begin(self.crop, side)?;
+        if self.keeper.resumes().is_some() {
+            (self.on_progress)(Event::Resumed);
+            (self.on_progress)(Event::Samples(taken(&tiles)));
+        }
+        Ok(tiles)
     }
 }
 
-/// The tiles that make up a window, row by row.
-fn tiles<P: Default + Clone, T>(
-    crop: PixelRect,
-    side: u32,
-    state: impl Fn(PixelRect) -> T,
-) -> Vec<Tile<P, T>> {
-    let starts = |from: u32, to: u32| (from..to).step_by(side as usize);
-    let tile = |x0: u32, y0: u32| {
-        let (x1, y1) = (crop.x1.min(x0 + side), crop.y1.min(y0 + side));
-        let rect = PixelRect { x0, y0, x1, y1 };
-        Tile { rect, pixels: vec![P::default(); rect.area()], state: state(rect) }
-    };
-    starts(crop.y0, crop.y1)
-        .flat_map(|y0| starts(crop.x0, crop.x1).map(move |x0| (x0, y0)))
-        .map(|(x0, y0)| tile(x0, y0))
-        .collect()
+/// Samples that tiles have had.
+fn taken<P: Pixel, S>(tiles: &[Mutex<Tile<P, S>>]) -> u64 {
+    let of = |tile: &Tile<P, S>| tile.pixels.iter().map(|p| u64::from(samples(p.stats()))).sum::<u64>();
+    tiles.iter().map(|tile| of(&lock(tile))).sum()
 }
 
-/// Does something with each tile, in parallel; returns what came of it, in the tiles' order.
-fn each<P: Send, T: Send, R: Send>(
-    tiles: &mut [Tile<P, T>],
-    what: impl Fn(&mut Tile<P, T>) -> R + Sync + Send,
+/// Pixels in tiles.
+fn area<P, S>(tiles: &[Mutex<Tile<P, S>>]) -> u64 {
+    tiles.iter().map(|tile| lock(tile).pixels.len() as u64).sum()
+}
+
+/// Takes a step of each tile, in parallel; returns what came of it, in the tiles' order.
+///
+/// A step works on a copy, and says whether it is to take the tile's place: a checkpoint, which may be written
+/// at any time, finds each tile as it was between two steps.
+fn each<P: Stored, S: State, R: Send>(
+    tiles: &[Mutex<Tile<P, S>>],
+    step: impl Fn(&mut Tile<P, S>) -> (bool, R) + Sync + Send,
 ) -> Vec<R> {
+    let each = |tile: &Mutex<Tile<P, S>>| {
+        let mut copy = lock(tile).clone();
+        let (counts, result) = step(&mut copy);
+        if counts {
+            *lock(tile) = copy;
+        }
+        result
+    };
     // One tile at a time for each thread: tiles differ in how long they take.
-    tiles.par_iter_mut().with_max_len(1).map(what).collect()
+    tiles.par_iter().with_max_len(1).map(each).collect()
+}
+
+/// The tiles when nobody works on them any more.
+fn unlocked<P, S>(tiles: Vec<Mutex<Tile<P, S>>>) -> Vec<Tile<P, S>> {
+    tiles.into_iter().map(|tile| tile.into_inner().unwrap_or_else(PoisonError::into_inner)).collect()
 }
 
 /// Samples of a pixel, those left out among them.
@@ -180,7 +215,7 @@ pub(crate) fn samples(pixel: &PixelStats) -> u32 {
 impl<P: Pixel> Rendered<P> {
     /// Every pixel, tile by tile.
     fn stats(&self) -> impl Iterator<Item = &PixelStats> {
-        self.tiles.iter().flat_map(|t| &t.pixels).map(P::stats)
+        self.tiles.iter().flat_map(|(_, pixels)| pixels).map(P::stats)
     }
 
     /// Columns and rows.
@@ -188,9 +223,15 @@ impl<P: Pixel> Rendered<P> {
         (self.crop.width(), self.crop.height())
     }
 
+    /// Pixels that were rendered: fewer than the window has in a part of it.
+    pub(crate) fn area(&self) -> u64 {
+        self.tiles.iter().map(|(_, pixels)| pixels.len() as u64).sum()
+    }
+
     /// Fewest and most samples of a pixel.
     pub(crate) fn samples_per_pixel(&self) -> (u32, u32) {
-        self.stats().map(samples).fold((u32::MAX, 0), |(least, most), n| (least.min(n), most.max(n)))
+        let counts = || self.stats().map(samples);
+        (counts().min().unwrap_or(0), counts().max().unwrap_or(0))
     }
 
     /// Samples taken in all.
@@ -206,7 +247,7 @@ impl<P: Pixel> Rendered<P> {
     /// The window's pixels, row by row, through `value`.
     pub(crate) fn pixels<T: Clone + Default>(&self, value: impl Fn(&P) -> T) -> Vec<T> {
         let mut all = vec![T::default(); self.crop.area()];
-        for Tile { rect, pixels, .. } in &self.tiles {
+        for (rect, pixels) in &self.tiles {
             for (row, y) in pixels.chunks_exact(rect.width() as usize).zip(rect.y0..) {
                 let start = (y - self.crop.y0) as usize * self.crop.width() as usize
                     + (rect.x0 - self.crop.x0) as usize;
@@ -220,110 +261,4 @@ impl<P: Pixel> Rendered<P> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use halflight::Rgb;
-    use std::sync::Mutex;
-
-    const CROP: PixelRect = PixelRect { x0: 3, y0: 5, x1: 80, y1: 70 };
-
-    /// Each sample tells its pixel's place; a tile is good enough after one step.
-    struct Place<F>(F);
-
-    impl<F: Fn() + Sync> Work<PixelStats> for Place<F> {
-        fn render(&self, rect: PixelRect, samples: Range<u32>, pixels: &mut [PixelStats]) -> DifferenceSums {
-            (self.0)();
-            let places = (rect.y0..rect.y1).flat_map(|y| (rect.x0..rect.x1).map(move |x| (x, y)));
-            for ((x, y), pixel) in places.zip(pixels) {
-                for _ in samples.clone() {
-                    pixel.add(Rgb::new(x as f32, y as f32, 0.0));
-                }
-            }
-            DifferenceSums::default()
-        }
-
-        fn refine(
-            &self,
-            tile: &mut AdaptiveTile,
-            _: &Target,
-            pixels: &mut [PixelStats],
-            go_on: &dyn Fn() -> bool,
-        ) -> u64 {
-            if !go_on() || pixels[0].count() > 0 {
-                return 0;
-            }
-            self.render(tile.rect(), 0..1, pixels);
-            pixels.len() as u64
-        }
-    }
-
-    const PLACE: Place<fn()> = Place(|| {});
-
-    fn places_of(rendered: &Rendered<PixelStats>) -> Vec<[f32; 3]> {
-        rendered.pixels(|p| p.mean().to_array())
-    }
-
-    fn expected() -> Vec<[f32; 3]> {
-        (5..70).flat_map(|y| (3..80).map(move |x| [x as f32, y as f32, 0.0])).collect()
-    }
-
-    #[test]
-    fn every_pixel_is_rendered_in_its_place() {
-        let rendered = render(CROP, Goal::Samples(5), &AtomicBool::new(false), &PLACE, &|_| {});
-        assert_eq!(places_of(&rendered), expected());
-        assert_eq!(rendered.samples_per_pixel(), (5, 5));
-        assert_eq!(rendered.samples(), 77 * 65 * 5);
-        assert!(!rendered.interrupted);
-    }
-
-    #[test]
-    fn every_pixel_is_refined_in_its_place() {
-        let goal = Goal::Error { target: 0.1, most: 64, adaptive: true };
-        let rendered = render(CROP, goal, &AtomicBool::new(false), &PLACE, &|_| {});
-        assert_eq!(places_of(&rendered), expected());
-        assert_eq!((rendered.samples(), rendered.missed), (77 * 65, 0));
-    }
-
-    #[test]
-    fn progress_adds_up_and_passes_come_in_order() {
-        let (taken, ends) = (Mutex::new(0), Mutex::new(Vec::new()));
-        let on_progress = |event| match event {
-            Event::Samples(n) => *taken.lock().unwrap() += n,
-            Event::Round { samples, .. } => ends.lock().unwrap().push(samples),
-        };
-        render::<PixelStats>(CROP, Goal::Samples(6), &AtomicBool::new(false), &PLACE, &on_progress);
-        assert_eq!(*taken.lock().unwrap(), 77 * 65 * 6);
-        assert_eq!(*ends.lock().unwrap(), [1.0, 2.0, 4.0, 6.0]);
-    }
-
-    #[test]
-    fn an_interrupt_stops_after_the_first_sample_of_each_pixel() {
-        let goals = [
-            Goal::Samples(64),
-            Goal::Error { target: 0.1, most: 64, adaptive: false },
-            Goal::Error { target: 0.1, most: 64, adaptive: true },
-        ];
-        for goal in goals {
-            let rendered = render(CROP, goal, &AtomicBool::new(true), &PLACE, &|_| {});
-            assert!(rendered.interrupted);
-            assert_eq!(rendered.samples_per_pixel(), (1, 1));
-            assert_eq!(places_of(&rendered), expected());
-        }
-    }
-
-    #[test]
-    fn an_interrupt_within_a_pass_keeps_what_was_done() {
-        let stop = AtomicBool::new(false);
-        let tiles = Mutex::new(0);
-        let stop_early = Place(|| {
-            *tiles.lock().unwrap() += 1;
-            if *tiles.lock().unwrap() == 10 {
-                stop.store(true, Ordering::Relaxed);
-            }
-        });
-        let rendered = render(CROP, Goal::Samples(64), &stop, &stop_early, &|_| {});
-        assert!(rendered.interrupted);
-        assert_eq!(rendered.samples_per_pixel(), (1, 2));
-        assert_eq!(places_of(&rendered).len(), CROP.area());
-    }
-}
+mod tests;

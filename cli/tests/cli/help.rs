@@ -4,8 +4,8 @@ use crate::support::Folder;
 use std::fs;
 use std::path::Path;
 
-const COMMANDS: [&str; 9] =
-    ["render", "scenes", "export", "inspect", "compare", "serve", "tradeoff", "completions", "man"];
+const COMMANDS: [&str; 10] =
+    ["render", "merge", "scenes", "export", "inspect", "compare", "serve", "tradeoff", "completions", "man"];
 
 /// Compares what is printed with `help/NAME.txt`, or writes it there when HALFLIGHT_ACCEPT_HELP is set.
 fn check(name: &str, line: &str) {

@@ -6,7 +6,7 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 /// Starts a render and waits until it listens for Ctrl-C.
-fn begin(folder: &Folder, line: &str) -> Child {
+pub(crate) fn begin(folder: &Folder, line: &str) -> Child {
     let mut child = folder.command(line).spawn().unwrap();
     let start = Instant::now();
     while !listens(child.id()) {

@@ -3,6 +3,8 @@
 mod bad_input;
 mod batch;
 mod bits;
+#[cfg(unix)]
+mod checkpoint;
 mod compare;
 mod disk;
 mod gltf;
@@ -12,6 +14,7 @@ mod help;
 mod interrupt;
 mod layers;
 mod output_range;
+mod parts;
 mod paths;
 mod results;
 mod serve;
