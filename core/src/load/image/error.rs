@@ -26,6 +26,15 @@ pub enum ImageError {
         /// Rows.
         height: u32,
     },
+    /// The file is too short for as many texels.
+    Short {
+        /// Columns.
+        width: u32,
+        /// Rows.
+        height: u32,
+        /// Bytes of the file.
+        bytes: u64,
+    },
 }
 
 impl fmt::Display for ImageError {
@@ -37,6 +46,9 @@ impl fmt::Display for ImageError {
             Self::Empty => write!(f, "the picture has no texel"),
             Self::TooLarge { width, height } => {
                 write!(f, "{width} × {height} texels are more than {}; make it smaller", super::MAX_TEXELS)
+            }
+            Self::Short { width, height, bytes } => {
+                write!(f, "the picture is torn: {bytes} bytes hold no {width} × {height} texels")
             }
         }
     }

@@ -23,8 +23,9 @@ pub(super) fn is_exr(files: &Files, path: &Path) -> Result<bool, ImageError> {
 /// Reads the first layer that has red, green and blue, or luminance alone.
 pub(super) fn read(files: &Files, path: &Path) -> Result<Image, ImageError> {
     let open = || files.open(path).map(|(file, _)| file);
+    let bytes = files.open(path)?.1;
     let headers = MetaData::read_from_buffered(open()?, false)?.headers;
-    headers.iter().try_for_each(|h| check_size(h.layer_size.0 as u32, h.layer_size.1 as u32))?;
+    headers.iter().try_for_each(|h| check_size(h.layer_size.0 as u32, h.layer_size.1 as u32, bytes))?;
     let has =
         |channel: &str| headers.iter().any(|h| h.channels.find_index_of_channel(&channel.into()).is_some());
     let layers = ::exr::prelude::read().no_deep_data().largest_resolution_level();

@@ -61,20 +61,31 @@ pub fn read_image_from(files: &Files, path: &Path, encoding: Encoding) -> Result
 fn decoded(files: &Files, path: &Path) -> Result<DynamicImage, ImageError> {
     // The bytes decide, and not the name: the name would choose a reader that finds something else wrong.
     let open = || ImageReader::new(files.open(path)?.0).with_guessed_format();
+    let bytes = files.open(path)?.1;
     let mut reader = open()?;
     let mut limits = Limits::no_limits();
     limits.max_alloc = Some(MAX_TEXELS * 12);
     reader.limits(limits);
     let (width, height) = open()?.into_dimensions()?;
-    check_size(width, height)?;
+    check_size(width, height, bytes)?;
     Ok(reader.decode()?)
 }
 
-/// Refuses a picture that would fill the memory.
-fn check_size(width: u32, height: u32) -> Result<(), ImageError> {
+/// The most texels that a byte of a file stands for: with DEFLATE, which makes 1032 bytes of one, and 8
+/// texels in a byte, as the PNG of one bit has them.
+///
+/// Source: RFC 1951, section 3.2.5: 258 bytes from two codes of one bit each.
+const MOST_TEXELS_PER_BYTE: u64 = 1032 * 8;
+
+/// Refuses a picture that would fill the memory, or that a file of so many bytes cannot hold: before
+/// anything is allocated for it.
+fn check_size(width: u32, height: u32, bytes: u64) -> Result<(), ImageError> {
     match u64::from(width) * u64::from(height) {
         0 => Err(ImageError::Empty),
         n if n > MAX_TEXELS => Err(ImageError::TooLarge { width, height }),
+        n if n > bytes.saturating_mul(MOST_TEXELS_PER_BYTE) => {
+            Err(ImageError::Short { width, height, bytes })
+        }
         _ => Ok(()),
     }
 }

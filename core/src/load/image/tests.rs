@@ -94,7 +94,26 @@ fn what_is_not_a_picture_is_refused() {
 
 #[test]
 fn a_picture_that_would_fill_the_memory_is_refused() {
-    assert!(matches!(check_size(1 << 15, 1 << 14), Err(ImageError::TooLarge { .. })));
-    assert!(matches!(check_size(0, 4), Err(ImageError::Empty)));
-    assert!(check_size(8192, 4096).is_ok());
+    assert!(matches!(check_size(1 << 15, 1 << 14, u64::MAX), Err(ImageError::TooLarge { .. })));
+    assert!(matches!(check_size(0, 4, 100), Err(ImageError::Empty)));
+    assert!(check_size(8192, 4096, 1 << 20).is_ok());
+}
+
+#[test]
+fn a_small_file_that_claims_to_be_a_large_picture_is_refused() {
+    let header = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 16384 +X 16384\n";
+    let small = Scratch::new("claims.hdr", header);
+    let error = read_image(&small.0, Encoding::Srgb).unwrap_err();
+    assert!(matches!(error, ImageError::Short { width: 16384, height: 16384, bytes: 53 }), "{error:?}");
+    assert!(std::format!("{error}").contains("53 bytes hold no 16384 × 16384 texels"), "{error}");
+}
+
+#[test]
+fn the_smallest_file_of_a_picture_is_read() {
+    // White, of one bit per texel: no file is shorter.
+    let white = ::image::GrayImage::from_pixel(2048, 2048, ::image::Luma([255]));
+    let mut bytes = Cursor::new(Vec::new());
+    white.write_to(&mut bytes, ::image::ImageFormat::Png).unwrap();
+    let file = Scratch::new("white.png", bytes.get_ref());
+    assert!(read_image(&file.0, Encoding::Linear).unwrap().texels.iter().all(|t| t.g == 1.0));
 }
