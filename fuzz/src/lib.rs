@@ -1,11 +1,16 @@
 //! What the fuzz targets share: numbers from bytes, and what must hold for them.
 
+use halflight::Film;
 use halflight::Rgb;
+use halflight::build::SceneBuffers;
+use halflight::estimate::{Direct, Job, PixelStats};
+use halflight::film::PixelRect;
 use halflight::geom::{PreparedRay, Ray};
 use halflight::glam::{DVec3, Vec3};
 use halflight::light::{AreaLight, Density, Emitter, Receiver, SampledShape, SurfaceDensity, SurfaceView};
-use halflight::load::{LoadOptions, load};
+use halflight::load::{Files, LoadOptions, load, load_from};
 use halflight::num::unit_f32;
+use halflight::sequence::Sobol;
 use halflight::shape::SurfacePoint;
 use std::path::PathBuf;
 use std::{env, fs, process};
@@ -178,4 +183,25 @@ pub fn load_mesh(kind: &str, bytes: &[u8]) {
 </scene>"#
     );
     load_file("scene.xml", scene.as_bytes());
+}
+
+/// Any bytes as the files of a scene; what is read and built gives a pixel in its middle whose light is finite
+/// and not negative.
+pub fn render_files(scene: &str, files: &[(&str, &[u8])]) {
+    let files = Files::in_memory(files.iter().map(|(name, bytes)| (PathBuf::from(name), bytes.to_vec())));
+    let options = LoadOptions { lenient: true, ..LoadOptions::default() };
+    let Ok(loaded) = load_from(&files, scene.as_ref(), &options) else { return };
+    let description = &loaded.description;
+    let Ok(buffers) = SceneBuffers::new(description) else { return };
+    let (width, height) = (description.width.min(64), description.height.min(64));
+    let Ok(camera) = description.camera.camera(width, height) else { return };
+    let Ok(film) = Film::new(width, height, description.filter) else { return };
+    let bound = buffers.bind();
+    let job =
+        Job { scene: bound.scene(), camera, film, estimator: Direct::default(), sequence: Sobol::new(0) };
+    let (x, y) = (width / 2, height / 2);
+    let mut pixel = [PixelStats::NEW];
+    job.render(PixelRect { x0: x, y0: y, x1: x + 1, y1: y + 1 }, 0..4, &mut pixel);
+    let mean = pixel[0].mean();
+    assert!(mean.is_valid(), "{mean:?}");
 }
