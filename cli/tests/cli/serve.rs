@@ -51,9 +51,25 @@ fn the_page_is_served_on_this_machine_and_nothing_beside_it() {
     let index = server.ask("GET / HTTP/1.1");
     assert!(index.starts_with("HTTP/1.1 200 OK\r\nContent-Type: text/html"), "{index}");
     assert!(index.ends_with("\r\n\r\n<p>light"), "{index}");
+    for header in ["X-Content-Type-Options: nosniff", "Cache-Control: no-cache", "Connection: close"] {
+        assert!(index.contains(&format!("\r\n{header}\r\n")), "{header}: {index}");
+    }
     assert!(server.ask("GET /a.wasm?v=2 HTTP/1.1").contains("application/wasm"));
     assert!(server.ask("HEAD / HTTP/1.1").ends_with("\r\n\r\n"));
-    for hidden in ["GET /../b.html HTTP/1.1", "GET /%2e%2e/b.html HTTP/1.1", "GET b.html HTTP/1.1", "GET"] {
+    // Too long, and without an end.
+    let mut stream = TcpStream::connect(&server.1).unwrap();
+    let _ = stream.write_all(&[b'/'; 1 << 17]);
+    let _ = stream.read(&mut [0; 64]);
+    for hidden in [
+        "GET /../b.html HTTP/1.1",
+        "GET /%2e%2e/b.html HTTP/1.1",
+        "GET /..%2fb.html HTTP/1.1",
+        "GET /..\\b.html HTTP/1.1",
+        "GET //b.html HTTP/1.1",
+        "GET /index.html\0.html HTTP/1.1",
+        "GET b.html HTTP/1.1",
+        "GET",
+    ] {
         let answer = server.ask(hidden);
         assert!(answer.starts_with("HTTP/1.1 404"), "{hidden}: {answer}");
     }
