@@ -12,6 +12,7 @@ pub mod quadrature;
 pub mod random;
 pub mod scenes;
 pub mod shapes;
+pub mod soak;
 pub mod statistics;
 
 use std::fmt;
