@@ -69,7 +69,7 @@ impl Default for Direct<'_> {
 
 impl Direct<'_> {
     /// What leaves a hit of a camera ray toward its origin: one sample.
-    #[inline]
+    #[inline(always)]
     fn leaving<S: Shape, L: Emitter, M: Material, const STACK: usize>(
         &self,
         scene: &Scene<'_, S, L, M, STACK>,

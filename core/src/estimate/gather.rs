@@ -43,8 +43,6 @@ struct Plan {
     bsdf: u32,
     heuristic: Heuristic,
     control: bool,
-    /// True where irradiance in closed form takes the place of light samples.
-    closed_form: bool,
 }
 
 impl Plan {
@@ -64,9 +62,7 @@ impl Plan {
         // Where no ray can meet a light, none is sent.
         let bsdf = if light_to_meet { bsdf_samples } else { 0 };
         let control = diffuse && matches!(technique, Technique::Control(_));
-        let may_differ = matches!(technique, Technique::Auto(_) | Technique::Control(_));
-        let closed_form = diffuse && bsdf == 0 && may_differ && direct.choice == LightChoice::All;
-        Self { light, bsdf, heuristic, control, closed_form }
+        Self { light, bsdf, heuristic, control }
     }
 }
 
@@ -177,11 +173,18 @@ impl<'g, S: Shape, L: Emitter, M: Material, K: Knowledge, const STACK: usize> Ga
         sum / draws as f32
     }
 
+    /// True where irradiance in closed form takes the place of light samples, if nothing hides the light.
+    fn takes_closed_form(&self) -> bool {
+        let Direct { technique, choice, .. } = *self.direct;
+        let may_choose = matches!(technique, Technique::Auto(_) | Technique::Control(_));
+        may_choose && choice == LightChoice::All && self.plan.bsdf == 0 && self.shading.bsdf().is_diffuse()
+    }
+
     /// What a light brings that nothing hides, without noise, beyond what [`Gather::unshadowed`] has; `None`
     /// where it is to be sampled.
     #[inline]
     fn in_closed_form(&self, index: usize, observer: &mut impl Observer) -> Option<Rgb> {
-        if !(self.known.is_lit(index) && self.plan.closed_form) {
+        if !(self.known.is_lit(index) && self.takes_closed_form()) {
             return None;
         }
         let irradiance = self.scene.lights().get(index)?.unshadowed_irradiance(&self.shading.receiver)?;
@@ -200,7 +203,7 @@ impl<'g, S: Shape, L: Emitter, M: Material, K: Knowledge, const STACK: usize> Ga
             let closed_form = self.known.is_lit(index) && light.unshadowed_irradiance(from).is_some();
             closed_form || (light.is_delta() && self.known.is_open(index))
         };
-        self.plan.closed_form && self.scene.lights().iter().enumerate().all(is_exact)
+        self.takes_closed_form() && self.scene.lights().iter().enumerate().all(is_exact)
     }
 
     /// One sample of the light with that index, chosen with probability `pmf`.

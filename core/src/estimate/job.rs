@@ -77,7 +77,7 @@ impl<S: Shape, L: Emitter, M: Material, E: Estimator, Q: Sequence + Clone> Job<'
     }
 
     /// The ray of a sample of pixel (x, y), and how far it reaches (m).
-    #[inline]
+    #[inline(always)]
     fn ray(&self, x: u32, y: u32, sample: u32, sequence: &mut Q) -> (Ray, f32) {
         // The pixel's number does not depend on the crop window.
         sequence.start(y.wrapping_mul(self.film.width()).wrapping_add(x), sample);
