@@ -1,6 +1,6 @@
 use super::*;
 use halflight::Rgb;
-use halflight::estimate::{LayeredPixel, PixelStats};
+use halflight::estimate::{LayeredPixel, PixelStats, TILE};
 
 const CROP: PixelRect = PixelRect { x0: 3, y0: 5, x1: 80, y1: 70 };
 
@@ -117,7 +117,7 @@ fn headers_that_cannot_be_are_refused() {
         Header { crop: PixelRect { x1: 3, ..CROP }, ..good.clone() },
         Header { crop: PixelRect { y1: 65_537, ..CROP }, ..good.clone() },
         Header { side: 0, ..good.clone() },
-        Header { side: 33, ..good.clone() },
+        Header { side: TILE + 1, ..good.clone() },
         Header { part: Part { number: 3, of: 2 }, ..good.clone() },
         Header { part: Part { number: 0, of: 2 }, ..good.clone() },
         Header { aim: Aim::Error { target: f64::NAN, most: 1, adaptive: false }, ..good.clone() },

@@ -25,6 +25,7 @@ mod words;
 
 use super::convergence::{ErrorEstimate, PRIOR_RATE, RATE};
 use super::hidden::behind_samples;
+use super::lamps::Sighting;
 use super::{DifferenceSums, Known, Pixel, Target};
 use crate::film::PixelRect;
 use crate::num;
@@ -49,7 +50,7 @@ const MEMORY: usize = 4;
 /// three is too large, the more so the faster the first samples converged; but blocks that are thought
 /// better than they are, are not looked at again, and those thought worse are. Found on the peers'
 /// scenes and the built-in ones.
-const CAUTION: (f32, f32) = (0.6, 1.15);
+const CAUTION: (f32, f32) = (0.6, 1.4);
 
 /// Samples of a block that has hardly been refined.
 const FEW: u32 = 16;
@@ -79,6 +80,8 @@ struct Block {
     hidden: f32,
     /// Radiance of the brightest lamp whose middle is seen in it (W m⁻² sr⁻¹).
     lamp: f32,
+    /// A bit for each pixel that an edge of a lamp is seen in.
+    edges: u8,
     known: Known,
     /// True when so much is known that nothing can hide, and a few samples will do.
     smooth: bool,
@@ -203,13 +206,12 @@ impl AdaptiveTile {
         u64::from(block.pixels) * u64::from(samples - before)
     }
 
-    /// Notes a lamp that is seen in pixel (x, y) of the film, which must be in the tile.
-    ///
-    /// * `radiance` – of the lamp (W m⁻² sr⁻¹)
-    pub(super) fn note_lamp(&mut self, (x, y): (u32, u32), radiance: f32) {
-        let PixelRect { x0, y0, .. } = self.rect;
-        let block = &mut self.blocks[((y - y0) / BLOCK) as usize * SIDE + ((x - x0) / BLOCK) as usize];
-        block.lamp = num::larger(block.lamp, radiance);
+    /// Notes a lamp that is seen in a pixel of the tile.
+    pub(super) fn note_lamp(&mut self, seen: &Sighting) {
+        let (x, y) = (seen.pixel.0 - self.rect.x0, seen.pixel.1 - self.rect.y0);
+        let block = &mut self.blocks[(y / BLOCK) as usize * SIDE + (x / BLOCK) as usize];
+        block.lamp = num::larger(block.lamp, seen.radiance);
+        block.edges |= u8::from(seen.is_edge) << pixel_of_block(x, y);
     }
 
     /// Works out what may hide in the pixels, now that those of some blocks have `changed`.
@@ -222,10 +224,11 @@ impl AdaptiveTile {
             if self.blocks[i].smooth {
                 continue;
             }
-            let lamp = self.blocks[i].lamp;
+            let Block { lamp, edges, .. } = self.blocks[i];
             let places = (part.y0..part.y1).flat_map(|y| (part.x0..part.x1).map(move |x| (x, y)));
             let index = |(x, y): (u32, u32)| (y - rect.y0) as usize * width + (x - rect.x0) as usize;
-            let sum: f32 = places.map(|place| behind_samples(pixels, width, index(place), lamp)).sum();
+            let is_edge = |(x, y): (u32, u32)| edges >> pixel_of_block(x - rect.x0, y - rect.y0) & 1 == 1;
+            let sum: f32 = places.map(|p| behind_samples(pixels, width, index(p), lamp, is_edge(p))).sum();
             self.blocks[i].hidden = sum / part.area() as f32;
         }
     }
@@ -284,6 +287,11 @@ impl AdaptiveTile {
         }
         all
     }
+}
+
+/// Which pixel of its block one is, by its place in the tile.
+const fn pixel_of_block(x: u32, y: u32) -> u32 {
+    y % BLOCK * BLOCK + x % BLOCK
 }
 
 /// A block and those around it, whether they are there or not.

@@ -13,14 +13,16 @@ use super::{Pixel, PixelStats};
 /// * `mean`, `bright` – of the pixel, and of what is brightest in it as far as it has seen (W m⁻² sr⁻¹)
 /// * `brighter` – what is brightest near it (W m⁻² sr⁻¹)
 /// * `samples` – of the pixel, above 0
+/// * `is_there` – whether something of what is brighter is known to be in the pixel: then its share is below
+///   `1/n`, if no sample has met it, with certainty
 #[inline]
-fn of_pixel(mean: f32, bright: f32, brighter: f32, samples: u32) -> f32 {
+fn of_pixel(mean: f32, bright: f32, brighter: f32, samples: u32, is_there: bool) -> f32 {
     let n = samples as f32;
     let covered = (brighter - bright).max(0.0) / n;
     let truth = mean + 0.5 * covered;
     // Divided twice: squares of a lamp's radiance leave the range of f32 before their ratio does.
     let relative = covered / crate::num::sqrt(truth * truth + 0.01).min(f32::MAX);
-    (relative * relative / 3.0).min(1.0) / n
+    (relative * relative / 3.0).min(1.0) / if is_there { 1.0 } else { n }
 }
 
 /// What is brightest in a pixel (W m⁻² sr⁻¹), as its samples tell: if a share `p` of it has the radiance
@@ -37,8 +39,15 @@ fn brightest_in(stats: &PixelStats) -> f32 {
 /// * `pixels` – row by row, `width` in each
 /// * `index` – of the pixel
 /// * `lamp` – radiance of a lamp that may be in it (W m⁻² sr⁻¹)
+/// * `is_there` – whether it is known to be
 #[inline]
-pub(super) fn behind_samples<P: Pixel>(pixels: &[P], width: usize, index: usize, lamp: f32) -> f32 {
+pub(super) fn behind_samples<P: Pixel>(
+    pixels: &[P],
+    width: usize,
+    index: usize,
+    lamp: f32,
+    is_there: bool,
+) -> f32 {
     let Some(stats) = pixels.get(index).map(P::stats).filter(|s| s.count() > 0 && width > 0) else {
         return 0.0;
     };
@@ -47,7 +56,7 @@ pub(super) fn behind_samples<P: Pixel>(pixels: &[P], width: usize, index: usize,
     let around = (row.saturating_sub(1)..row + 2).flat_map(|y| columns.clone().map(move |x| y * width + x));
     let brightness = |i: usize| pixels.get(i).map_or(0.0, |p| brightest_in(p.stats()));
     let brighter = around.map(brightness).fold(lamp, f32::max);
-    of_pixel(stats.mean().average(), brightest_in(stats), brighter, stats.count())
+    of_pixel(stats.mean().average(), brightest_in(stats), brighter, stats.count(), is_there)
 }
 
 #[cfg(test)]
@@ -58,7 +67,7 @@ mod tests {
 
     #[test]
     fn a_lamp_may_hide_in_the_pixel_beside_it_and_nothing_in_an_even_one() {
-        let error = |mean, brighter, n| of_pixel(mean, mean, brighter, n);
+        let error = |mean, brighter, n| of_pixel(mean, mean, brighter, n, false);
         assert_eq!(error(1.0, 1.0, 16), 0.0);
         assert_eq!(error(1.0, 0.2, 16), 0.0);
         // As wrong as can be, once in sixteen pixels.
@@ -84,7 +93,7 @@ mod tests {
                 sum += (share * lamp).powi(2) / (truth * truth + 0.01);
             }
         }
-        let ratio = f64::from(of_pixel(0.1, 0.1, lamp as f32, n)) / (sum / f64::from(runs));
+        let ratio = f64::from(of_pixel(0.1, 0.1, lamp as f32, n, false)) / (sum / f64::from(runs));
         assert!((0.7..1.4).contains(&ratio), "{ratio}");
     }
 
@@ -93,12 +102,12 @@ mod tests {
         let mut pixels = [PixelStats::NEW; 20];
         pixels.iter_mut().for_each(|p| p.add(Rgb::splat(0.1)));
         pixels[7].add(Rgb::splat(1e6));
-        let found: [bool; 20] = core::array::from_fn(|i| behind_samples(&pixels, 5, i, 0.0) > 0.1);
+        let found: [bool; 20] = core::array::from_fn(|i| behind_samples(&pixels, 5, i, 0.0, false) > 0.1);
         let near = [1, 2, 3, 6, 8, 11, 12, 13];
         assert_eq!(found, core::array::from_fn(|i| near.contains(&i)));
         // A pixel that has seen it is not surprised; one that may hold a lamp is.
-        assert_eq!(behind_samples(&pixels, 5, 7, 0.0), 0.0);
-        assert!(behind_samples(&pixels, 5, 15, 1e6) > 0.1);
+        assert_eq!(behind_samples(&pixels, 5, 7, 0.0, false), 0.0);
+        assert!(behind_samples(&pixels, 5, 15, 1e6, false) > 0.1);
     }
 
     #[test]
@@ -112,7 +121,7 @@ mod tests {
         pixel.add(Rgb::splat(3e38));
         let pixels = [pixel, PixelStats::from_words([0, 0, 0, 0, 0, 0, 4, 0])];
         for i in 0..2 {
-            assert!((0.0..=1.0).contains(&behind_samples(&pixels, 2, i, 0.0)));
+            assert!((0.0..=1.0).contains(&behind_samples(&pixels, 2, i, 0.0, false)));
         }
     }
 }

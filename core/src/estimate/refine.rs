@@ -47,7 +47,7 @@ impl<S: Shape, L: Emitter, M: Material, E: Estimator, Q: Sequence + Clone> Job<'
 
     /// Finds out what can be known before the first sample.
     fn begin(&self, tile: &mut AdaptiveTile) {
-        each_lamp(self, tile.rect(), |pixel, radiance| tile.note_lamp(pixel, radiance));
+        each_lamp(self, tile.rect(), |lamp| tile.note_lamp(&lamp));
         for index in 0..BLOCKS {
             if let Some((part, ..)) = tile.block(index) {
                 let (known, is_smooth) = self.look_ahead(part);

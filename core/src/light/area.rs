@@ -224,6 +224,10 @@ impl<S: SampledShape, R: SurfaceRadiance> Emitter for AreaLight<S, R> {
         Some(self.light_bounds())
     }
 
+    fn outline(&self) -> Option<[Vec3; 4]> {
+        self.shape.outline()
+    }
+
     /// `π A L`, twice when both sides emit.
     fn power(&self, _scene_radius: f32) -> f32 {
         let sides = if self.sides == Sides::Both { 2.0 } else { 1.0 };

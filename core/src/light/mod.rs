@@ -162,6 +162,11 @@ pub trait Emitter: Copy {
         None
     }
 
+    /// The corners of a flat light that has three or four, in order, as [`crate::shape::Shape::outline`].
+    fn outline(&self) -> Option<[Vec3; 4]> {
+        None
+    }
+
     /// Checks a light that was made without checks, as those in a program's constants are.
     ///
     /// # Errors
@@ -314,6 +319,10 @@ impl Emitter for AnyLight<'_> {
 
     fn bounds(&self) -> Option<LightBounds> {
         each_light!(self, l => l.bounds())
+    }
+
+    fn outline(&self) -> Option<[Vec3; 4]> {
+        each_light!(self, l => l.outline())
     }
 
     fn check(&self) -> Result<(), LightError> {

@@ -11,6 +11,9 @@ const BLOCK_WORDS: usize = MEMORY + 5;
 /// Which of them are numbers.
 const NUMBERS: [Range<usize>; 2] = [1..3, 5..BLOCK_WORDS];
 
+/// Where the bits of the edges are in the word of the lights.
+const EDGES: u32 = 24;
+
 /// Above the bits of the second word of [`Known`].
 const SMOOTH: u32 = 1 << 31;
 
@@ -30,7 +33,7 @@ impl AdaptiveTile {
                 1 => block.hidden.to_bits(),
                 2 => block.lamp.to_bits(),
                 3 => met,
-                4 => lights | if block.smooth { SMOOTH } else { 0 },
+                4 => lights | u32::from(block.edges) << EDGES | if block.smooth { SMOOTH } else { 0 },
                 word => block.changes[word - 5].to_bits(),
             }
         })
@@ -49,9 +52,10 @@ impl AdaptiveTile {
             }
             let changes = array::from_fn(|ago| number(ago + 5));
             let (hidden, lamp) = (number(1), number(2));
-            let known = Known::from_words([words[3], words[4] & !SMOOTH])?;
+            let edges = (words[4] >> EDGES & 15) as u8;
+            let known = Known::from_words([words[3], words[4] & !SMOOTH & !(15 << EDGES)])?;
             let smooth = words[4] & SMOOTH != 0;
-            *block = Block { samples: words[0], changes, hidden, lamp, known, smooth, ..*block };
+            *block = Block { samples: words[0], changes, hidden, lamp, edges, known, smooth, ..*block };
         }
         Some(tile)
     }
@@ -73,6 +77,7 @@ mod tests {
             block.changes = array::from_fn(|ago| 1e-3 * f32::from(i) + ago as f32);
             block.known = Known::from_words([u32::from(i % 5), u32::from(i)]).unwrap();
             block.smooth = i % 3 == 0;
+            block.edges = (i % 16) as u8;
         }
         let words = tile.to_words();
         let again = AdaptiveTile::from_words(RECT, &words).unwrap();
