@@ -158,7 +158,7 @@ impl AdaptiveTile {
         if oldest == 0 || !(last > 0.0) {
             return PRIOR_RATE as f32;
         }
-        let seen = num::pow(first / last, 1.0 / oldest as f32).clamp(RATE.0 as f32, RATE.1 as f32);
+        let seen = num::clamp(num::pow(first / last, 1.0 / oldest as f32), RATE.0 as f32, RATE.1 as f32);
         num::pow(seen, RATE_OWN) * num::pow(PRIOR_RATE as f32, 1.0 - RATE_OWN)
     }
 

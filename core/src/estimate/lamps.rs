@@ -10,6 +10,7 @@ use super::{Estimator, Job};
 use crate::film::{Film, PixelRect};
 use crate::light::Emitter;
 use crate::material::Material;
+use crate::num;
 use crate::sequence::Sequence;
 use crate::shape::Shape;
 
@@ -84,7 +85,7 @@ fn along(ends: [Option<(f32, f32)>; 2], film: &Film, mut take: impl FnMut((f32, 
     for _ in 0..MOST_PLACES {
         let next = to_border(share, from.0, step.0, size.0).min(to_border(share, from.1, step.1, size.1));
         // A border that rounding does not get across is left behind.
-        let next = next.clamp(share + 1e-6, 1.0);
+        let next = num::clamp(next, share + 1e-6, 1.0);
         let middle = 0.5 * (share + next);
         take((from.0 + step.0 * middle, from.1 + step.1 * middle));
         share = next;
@@ -119,5 +120,22 @@ mod tests {
         assert_eq!(places, 0);
         along([Some((0.2, 0.2)), Some((0.2, 0.2))], &film, |_| places += 1);
         assert_eq!(places, 1);
+    }
+
+    #[test]
+    fn the_last_border_may_be_as_near_to_the_end_as_rounding_allows() {
+        let film = Film::new(7, 5, Filter::PIXEL).unwrap();
+        let unit = |i: u32, k: u32| 2.0 * num::unit_f32(num::hash2(i, k)) - 1.0;
+        for i in 0..200_000 {
+            // Ends at a border between pixels, or a little beside it.
+            let column = (unit(i, 0) * 3.5 + 3.5) as u32 as f32;
+            let end = (column / 3.5 - 1.0) * (1.0 + unit(i, 1) * 1e-6);
+            let mut places = 0;
+            along([Some((unit(i, 2), unit(i, 3))), Some((end, unit(i, 4)))], &film, |(x, y)| {
+                assert!(x.is_finite() && y.is_finite());
+                places += 1;
+            });
+            assert!((1..=7 + 5 + 4).contains(&places), "{i}: {places}");
+        }
     }
 }

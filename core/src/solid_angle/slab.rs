@@ -88,7 +88,7 @@ impl Span {
         let c = num::sqrt(square).max(f32::MIN_POSITIVE);
         let (x, part) = if x0 < 0.0 {
             // The foot is within: no digit is lost from it.
-            let x = (t * (h / c)).clamp(x0, x1);
+            let x = num::clamp(t * (h / c), x0, x1);
             (x, x - x0)
         } else {
             // x − x₀ = t sin(ε − ε₀) / (c₀ c)
