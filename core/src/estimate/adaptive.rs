@@ -43,14 +43,17 @@ const SIDE: usize = (TILE / BLOCK) as usize;
 /// Blocks of a tile.
 pub(super) const BLOCKS: usize = SIDE * SIDE;
 
-/// Doublings that a block remembers.
-const MEMORY: usize = 4;
+/// Doublings that a block remembers. The blocks that are refined most are those that changed most: the farther
+/// back, the more their changes tell of why they were chosen, and the less of convergence. With four, the rate
+/// was 3 to 5 at an error of 0.5 %, and the true error up to 1.3 of the target.
+const MEMORY: usize = 3;
 
 /// Factor of the estimate of a block with at most [`FEW`] samples, and of one with more. The largest of
 /// three is too large, the more so the faster the first samples converged; but blocks that are thought
 /// better than they are, are not looked at again, and those thought worse are. Found on the peers'
-/// scenes and the built-in ones.
-const CAUTION: (f32, f32) = (0.6, 1.4);
+/// scenes and the built-in ones: true errors are 0.80, 0.84 and 0.89 of targets of 2, 1 and 0.5 %, with a
+/// standard deviation of 0.09.
+const CAUTION: (f32, f32) = (0.5, 1.1);
 
 /// Samples of a block that has hardly been refined.
 const FEW: u32 = 16;
@@ -165,7 +168,7 @@ impl AdaptiveTile {
     /// Estimated relMSE of each block; 0 where there is none.
     fn errors(&self, rate: f32) -> [f32; BLOCKS] {
         let own: [f32; BLOCKS] = array::from_fn(|i| {
-            let [last, before, earlier, _] = self.blocks[i].changes;
+            let [last, before, earlier] = self.blocks[i].changes;
             let caution = if self.blocks[i].samples > FEW { CAUTION.1 } else { CAUTION.0 };
             let worst = last.max(before / rate).max(earlier / (rate * rate));
             caution * worst / (rate - 1.0) + HIDDEN_CAUTION * self.blocks[i].hidden
