@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 const DEFAULT_SAMPLES: u32 = 64;
 
 /// Most samples per pixel for an error or a time, where the user does not say.
-const DEFAULT_CAP: u32 = 65_536;
+pub(crate) const DEFAULT_CAP: u32 = 65_536;
 
 /// Refuses flags that contradict each other.
 ///

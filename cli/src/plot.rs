@@ -4,6 +4,7 @@ use crate::failure::Failure;
 use plotters::chart::ChartContext;
 use plotters::coord::Shift;
 use plotters::coord::combinators::{BindKeyPoints, LogCoord, WithKeyPoints};
+use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use std::ops::Range;
@@ -40,6 +41,8 @@ pub(crate) struct Curve {
 pub(crate) enum Style {
     /// Thick and black: what the others are compared with.
     Plain,
+    /// The same with gaps and open markers.
+    Dashed,
     /// A colour for each family, a marker for each of its members.
     Coloured { colour: usize, member: usize },
 }
@@ -66,6 +69,10 @@ const PANEL: (u32, u32) = (410, 400);
 const LEGEND: u32 = 200;
 const LINE: i32 = 21;
 const FONT: &str = "sans-serif";
+
+/// Of dashed curves (pixels).
+const DASH: u32 = 5;
+const GAP: u32 = 4;
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 type Axis = WithKeyPoints<LogCoord<f64>>;
@@ -180,8 +187,12 @@ fn draw_guide(axes: &mut Axes<'_, '_>, panel: &Panel, [x, y]: &[Range<f64>; 2]) 
 /// Draws a line with its markers.
 fn draw_curve(axes: &mut Axes<'_, '_>, curve: &Curve) -> Drawn {
     let (colour, width) = stroke(curve.style);
-    let line = colour.stroke_width(width);
-    axes.draw_series(LineSeries::new(curve.points.iter().copied(), line))?;
+    let (line, points) = (colour.stroke_width(width), curve.points.iter().copied());
+    if curve.style == Style::Dashed {
+        axes.draw_series(DashedLineSeries::new(points, DASH, GAP, line))?;
+    } else {
+        axes.draw_series(LineSeries::new(points, line))?;
+    }
     axes.draw_series(curve.points.iter().map(|&at| marker(curve.style, at)))?;
     Ok(())
 }
@@ -192,7 +203,12 @@ fn draw_legend(area: &Area<'_>, panel: &Panel) -> Drawn {
     for (i, curve) in panel.curves.iter().enumerate() {
         let y = 38 + LINE * i as i32;
         let (colour, width) = stroke(curve.style);
-        area.draw(&PathElement::new([(4, y), (32, y)], colour.stroke_width(width)))?;
+        let (line, ends) = (colour.stroke_width(width), [(4, y), (32, y)]);
+        if curve.style == Style::Dashed {
+            area.draw(&DashedPathElement::new(ends, DASH, GAP, line))?;
+        } else {
+            area.draw(&PathElement::new(ends, line))?;
+        }
         area.draw(&marker(curve.style, (18, y)))?;
         area.draw(&Text::new(curve.name.as_str(), (40, y), text.clone()))?;
     }
@@ -203,6 +219,7 @@ fn draw_legend(area: &Area<'_>, panel: &Panel) -> Drawn {
 fn stroke(style: Style) -> (RGBColor, u32) {
     match style {
         Style::Plain => (BLACK, 3),
+        Style::Dashed => (BLACK, 2),
         Style::Coloured { colour, .. } => (COLOURS[colour % COLOURS.len()], 1),
     }
 }
@@ -212,6 +229,7 @@ fn marker<'b, C: Clone + 'static>(style: Style, at: C) -> DynElement<'static, SV
     let (colour, _) = stroke(style);
     match style {
         Style::Plain => Circle::new(at, 3, colour.filled()).into_dyn(),
+        Style::Dashed => Circle::new(at, 4, colour.stroke_width(2)).into_dyn(),
         Style::Coloured { member: 0, .. } => Circle::new(at, 3, colour.filled()).into_dyn(),
         Style::Coloured { member: 1, .. } => TriangleMarker::new(at, 5, colour.filled()).into_dyn(),
         Style::Coloured { member: 2, .. } => Cross::new(at, 4, colour.stroke_width(1)).into_dyn(),
@@ -233,6 +251,7 @@ mod tests {
             vec![
                 curve("auto", Style::Plain, 10.0),
                 curve("--lights <area>", Style::Coloured { colour: 0, member: 2 }, 30.0),
+                curve("--adaptive on", Style::Dashed, 5.0),
             ]
         };
         let panel = |title: &str| Panel { title: title.into(), curves: curves() };
@@ -244,7 +263,9 @@ mod tests {
         };
         let svg = svg(&figure).unwrap();
         assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>"));
-        for word in ["a scene", "left", "right", "time", "error", "auto", "--lights &lt;area&gt;"] {
+        for word in
+            ["a scene", "left", "right", "time", "error", "auto", "--lights &lt;area&gt;", "--adaptive on"]
+        {
             assert!(svg.contains(word), "{word}");
         }
         // The first of the colours, in both panels and in the legend.

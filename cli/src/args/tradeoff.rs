@@ -56,8 +56,10 @@ pub(crate) struct TradeoffArgs {
 
 /// Closes the help.
 const COLUMNS: &str = "\
-Each row of the table is what `auto` takes with one choice changed. All are rendered with several
-seeds in turn, and judged at the same CPU time, which the heading names.
+Each row of the table is what `auto` takes with one choice changed, with the same samples for every
+pixel but in the row `adaptive on`, whose samples go where the error is, as those of --error and
+--time do. All are rendered with several seeds in turn, and judged at the same CPU time, which the
+heading names.
   error        relative RMS error, the root of relMSE (see `halflight compare --help`)
   time to 1 %  CPU time until that is 1 %; ~ where it had to be extrapolated
   efficiency   1 / (relMSE × CPU time), relative to auto, with its standard error over the seeds

@@ -50,7 +50,7 @@ fn run_keeping(args: &RenderArgs, keeps_parts: bool) -> Result<Exit, Failure> {
     let begin = Instant::now();
     check(args)?;
     let to = Destination::check(args)?;
-    let pool = pool(args)?;
+    let pool = pool(args.threads)?;
     let mut prepared = prepare(args, begin)?;
     prepared.warn_of(args, &to)?;
     prepared.picture(args, &to, &pool, keeps_parts)
@@ -146,8 +146,10 @@ fn without_effect(args: &RenderArgs, prepared: &Prepared) -> Vec<&'static str> {
 const STACK: usize = 16 << 20;
 
 /// The threads that render.
-pub(super) fn pool(args: &RenderArgs) -> Result<ThreadPool, Failure> {
-    let threads = args.threads.unwrap_or_else(|| available_parallelism().map_or(1, usize::from));
+///
+/// * `threads` – how many; as many as there are cores where nobody says
+pub(super) fn pool(threads: Option<usize>) -> Result<ThreadPool, Failure> {
+    let threads = threads.unwrap_or_else(|| available_parallelism().map_or(1, usize::from));
     ThreadPoolBuilder::new().num_threads(threads).stack_size(STACK).build().map_err(|e| {
         Failure::new(format!("cannot start {}: {e}", counted(threads as u64, "thread")))
             .tip("ask for fewer with --threads")

@@ -28,7 +28,7 @@ pub(super) fn shoot(args: &RenderArgs, shots: &[Shot]) -> Result<Exit, Failure> 
     check(args)?;
     let of = |shot: &Shot| RenderArgs { output: shot.output.clone(), ..args.clone() };
     let files: Vec<_> = shots.iter().map(|shot| Destination::check(&of(shot))).collect::<Result<_, _>>()?;
-    let pool = pool(args)?;
+    let pool = pool(args.threads)?;
     let mut prepared = prepare(args, begin)?;
     if let Some(files) = files.first() {
         prepared.warn_of(args, files)?;

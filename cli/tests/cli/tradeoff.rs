@@ -19,8 +19,14 @@ fn a_measurement_prints_a_table_and_writes_three_files() {
     {
         assert!(table.contains(word), "no \"{word}\" in {table}");
     }
-    for row in ["lights area", "lights solid-angle", "technique bsdf", "technique control", "sequence random"]
-    {
+    for row in [
+        "lights area",
+        "lights solid-angle",
+        "technique bsdf",
+        "technique control",
+        "sequence random",
+        "adaptive on",
+    ] {
         assert!(table.lines().any(|l| l.starts_with(row)), "no \"{row}\" in {table}");
     }
     assert!(table.ends_with("written: scene-tradeoff.svg scene-tradeoff.csv scene-tradeoff.json\n"));
@@ -28,7 +34,7 @@ fn a_measurement_prints_a_table_and_writes_three_files() {
     assert!(svg.starts_with("<svg") && svg.contains("--lights area") && svg.contains("CPU time (s)"));
     let csv = String::from_utf8(folder.bytes("scene-tradeoff.csv")).unwrap();
     assert!(csv.starts_with("choice,samples_per_pixel,cpu_seconds,relmse,"));
-    assert!(csv.lines().skip(1).all(|l| l.split(',').count() == 8), "{csv}");
+    assert!(csv.lines().skip(1).all(|l| l.split(',').count() == 9), "{csv}");
 }
 
 #[test]

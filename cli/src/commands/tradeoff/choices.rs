@@ -14,6 +14,9 @@ use halflight::scene::AnyScene;
 /// The choice that all others are compared with.
 pub(super) const AUTO: &str = "auto";
 
+/// The flag that puts samples where the error is.
+pub(super) const ADAPTIVE: &str = "adaptive";
+
 /// One way of rendering the scene.
 #[derive(Debug)]
 pub(super) struct Candidate {
@@ -22,6 +25,8 @@ pub(super) struct Candidate {
     /// The flag that says so.
     pub(super) flag: &'static str,
     pub(super) plan: Plan,
+    /// True when samples go where the error is.
+    pub(super) adaptive: bool,
     /// Which of the field's buffers it renders.
     pub(super) tables: usize,
 }
@@ -61,6 +66,9 @@ impl Field {
         for (flag, value, choices) in alternatives(&facts) {
             field.enter(format!("{flag} {value}"), flag, &choices, description)?;
         }
+        let plan = field.candidates[0].plan;
+        let name = format!("{ADAPTIVE} on");
+        field.candidates.push(Candidate { name, flag: ADAPTIVE, plan, adaptive: true, tables: 0 });
         Ok(field)
     }
 
@@ -85,7 +93,7 @@ impl Field {
         };
         let plan = plan::make(choices, description, &self.buffers[tables].bind())?;
         if self.candidates.iter().all(|c| (c.plan, c.tables) != (plan, tables)) {
-            self.candidates.push(Candidate { name, flag, plan, tables });
+            self.candidates.push(Candidate { name, flag, plan, adaptive: false, tables });
         }
         Ok(())
     }
@@ -174,7 +182,7 @@ mod tests {
     fn a_scene_offers_what_makes_a_difference() {
         let cornell = names("cornell");
         assert_eq!(cornell[0], AUTO);
-        for there in ["lights area", "technique control", "sequence random"] {
+        for there in ["lights area", "technique control", "sequence random", "adaptive on"] {
             assert!(cornell.iter().any(|n| n == there), "{there}: {cornell:?}");
         }
         // All is diffuse: auto samples by light. There is no map.
@@ -191,7 +199,9 @@ mod tests {
         let field = Field::of(&mut builtin("plates").unwrap()).unwrap();
         for (i, a) in field.candidates.iter().enumerate() {
             assert!(
-                field.candidates[..i].iter().all(|b| (a.plan, a.tables) != (b.plan, b.tables)),
+                field.candidates[..i]
+                    .iter()
+                    .all(|b| (a.plan, a.tables, a.adaptive) != (b.plan, b.tables, b.adaptive)),
                 "{}",
                 a.name
             );

@@ -1,6 +1,6 @@
 //! The outcomes as a figure: error over CPU time, one panel for each part of the picture.
 
-use super::choices::AUTO;
+use super::choices::{ADAPTIVE, AUTO};
 use super::ladder::Errors;
 use super::outcome::{Outcome, Outcomes};
 use super::race::Measured;
@@ -45,6 +45,7 @@ fn panel(title: String, outcomes: &Outcomes, part: impl Fn(&Errors) -> f64) -> P
                 members[colour] += 1;
                 Style::Coloured { colour, member: members[colour] - 1 }
             }
+            None if outcome.flag == ADAPTIVE => Style::Dashed,
             None => Style::Plain,
         };
         let believed = outcome.curve.iter().filter(|p| p.trusted);

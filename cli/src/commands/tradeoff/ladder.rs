@@ -1,14 +1,22 @@
-//! Rendering one choice up a ladder of sample counts: error and CPU time at each rung.
+//! Rendering one choice up a ladder, of sample counts or of target errors: error and CPU time at each rung.
 
 use super::choices::{Candidate, Field};
 use super::reference::Reference;
 use cpu_time::ThreadTime;
-use halflight::estimate::{Job, PixelStats, passes};
+use halflight::build::BoundScene;
+use halflight::estimate::{AnyEstimator, Job, PixelStats, passes};
 use halflight::film::{Film, PixelRect};
+use halflight::light::AnyLight;
+use halflight::material::AnyMaterial;
+use halflight::sequence::AnySequence;
+use halflight::shape::AnyShape;
 use halflight::{Camera, Rgb};
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
+/// A picture of any scene, by any estimator.
+pub(super) type AnyJob<'a> = Job<'a, AnyShape, AnyLight<'a>, AnyMaterial<'a>, AnyEstimator<'a>, AnySequence>;
 
 /// Rows that a thread renders at a time.
 const BAND: usize = 4;
@@ -22,11 +30,22 @@ pub(super) struct Stage<'a> {
     pub(super) stop: &'a AtomicBool,
 }
 
-/// What a ladder has come to after a pass.
+/// How far a ladder goes.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Ladder {
+    /// Up to so many samples of each pixel, a power of two.
+    Samples(u32),
+    /// Through these [targets](super::refined::target).
+    Targets(Range<u32>),
+}
+
+/// What a ladder has come to after a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Rung {
-    /// Samples per pixel so far.
-    pub(super) samples: u32,
+    /// Samples per pixel so far, on average.
+    pub(super) samples: f64,
+    /// The relative error that was asked for (a fraction), where one was.
+    pub(super) target: Option<f64>,
     /// CPU time so far, of all threads (s).
     pub(super) seconds: f64,
     /// relMSE, the noise of the reference included.
@@ -77,11 +96,26 @@ impl Stage<'_> {
     }
 
     /// The rungs of a ladder, judged by a reference.
-    pub(super) fn rungs(&self, candidate: &Candidate, seed: u32, samples: u32, by: &Reference) -> Vec<Rung> {
+    pub(super) fn rungs(
+        &self,
+        candidate: &Candidate,
+        seed: u32,
+        ladder: &Ladder,
+        by: &Reference,
+    ) -> Vec<Rung> {
         let mut rungs = Vec::new();
-        self.climb(candidate, seed, samples, |samples, seconds, pixels| {
-            rungs.push(Rung { samples, seconds, relmse: by.relmse(pixels) });
-        });
+        let mut rung = |target, samples, seconds, pixels: &[PixelStats]| {
+            rungs.push(Rung { samples, target, seconds, relmse: by.relmse(pixels) });
+        };
+        match ladder {
+            Ladder::Samples(most) => self.climb(candidate, seed, *most, |samples, seconds, pixels| {
+                rung(None, f64::from(samples), seconds, pixels);
+            }),
+            Ladder::Targets(targets) => self.refine(candidate, seed, targets.clone(), |picture| {
+                rung(Some(picture.target), picture.samples(), picture.seconds(), &picture.pixels());
+                true
+            }),
+        }
         rungs
     }
 
@@ -97,13 +131,7 @@ impl Stage<'_> {
         let buffers = &self.field.buffers[candidate.tables];
         let bound = buffers.bind();
         let width = self.film.width();
-        let job = Job {
-            scene: bound.scene(),
-            camera: self.camera,
-            film: self.film,
-            estimator: candidate.plan.estimator(buffers),
-            sequence: candidate.plan.sequence(seed, width, of),
-        };
+        let job = self.job(candidate, &bound, candidate.plan.sequence(seed, width, of));
         let nanoseconds = AtomicU64::new(0);
         let rows = BAND * width as usize;
         pixels.par_chunks_mut(rows).enumerate().with_max_len(1).for_each(|(band, pixels)| {
@@ -114,6 +142,24 @@ impl Stage<'_> {
             nanoseconds.fetch_add(start.elapsed().as_nanos() as u64, Ordering::Relaxed);
         });
         1e-9 * nanoseconds.into_inner() as f64
+    }
+
+    /// What a picture of a choice depends on.
+    ///
+    /// * `bound` – the choice's tables
+    pub(super) fn job<'b>(
+        &'b self,
+        candidate: &Candidate,
+        bound: &'b BoundScene<'b>,
+        sequence: AnySequence,
+    ) -> AnyJob<'b> {
+        Job {
+            scene: bound.scene(),
+            camera: self.camera,
+            film: self.film,
+            estimator: candidate.plan.estimator(&self.field.buffers[candidate.tables]),
+            sequence,
+        }
     }
 
     /// One picture, and the CPU time that it took (s); `None` when interrupted.

@@ -6,13 +6,14 @@ mod ladder;
 mod outcome;
 mod race;
 mod reference;
+mod refined;
 mod region;
 mod table;
 
+use super::render::pool;
 use crate::args::TradeoffArgs;
 use crate::failure::{Exit, Failure};
 use crate::interrupt::on_interrupt;
-use crate::number::counted;
 use crate::output::Output;
 use crate::picture::{Picture, read};
 use crate::progress::Step;
@@ -23,10 +24,8 @@ use halflight::{Camera, Film};
 use ladder::Stage;
 use outcome::Outcomes;
 use race::{Measured, Terms};
-use rayon::ThreadPoolBuilder;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
-use std::thread::available_parallelism;
 use table::Circumstances;
 
 /// Columns of the pictures where nobody says.
@@ -47,9 +46,12 @@ pub(crate) fn run(args: &TradeoffArgs) -> Result<Exit, Failure> {
     let description = &mut found.description;
     let (film, camera) = view(args, description, given.as_ref())?;
     let stop = on_interrupt()?;
-    let threads = args.threads.unwrap_or_else(|| available_parallelism().map_or(1, usize::from));
-    let measured = measure(args, &Stage { field: &field, camera, film, stop: &stop }, threads, given)?;
-    let Some(measured) = measured else { return Ok(Exit::Interrupted) };
+    let pool = pool(args.threads)?;
+    let threads = pool.current_num_threads();
+    let stage = Stage { field: &field, camera, film, stop: &stop };
+    let Some(measured) = pool.install(|| measure(args, &stage, threads, given)) else {
+        return Ok(Exit::Interrupted);
+    };
     let about = Circumstances {
         scene: description.name.clone(),
         size: (film.width(), film.height()),
@@ -61,26 +63,20 @@ pub(crate) fn run(args: &TradeoffArgs) -> Result<Exit, Failure> {
     Ok(if stop.load(Ordering::Relaxed) { Exit::Interrupted } else { Exit::Good })
 }
 
-/// Takes all measurements, on threads of its own; `None` when interrupted too early.
+/// Takes all measurements, on the current threads; `None` when interrupted too early.
 fn measure(
     args: &TradeoffArgs,
     stage: &Stage<'_>,
     threads: usize,
     given: Option<Picture>,
-) -> Result<Option<Measured>, Failure> {
-    let pool = ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()
-        .map_err(|e| Failure::new(format!("cannot start {}: {e}", counted(threads as u64, "thread"))))?;
+) -> Option<Measured> {
     let terms = Terms { budget: f64::from(args.budget), threads, seed: args.seed, quiet: args.quiet };
-    Ok(pool.install(|| {
-        let bound = stage.field.buffers[0].bind();
-        let regions = {
-            let _step = Step::begin("looking for penumbrae", args.quiet);
-            region::regions(&bound.scene(), &stage.camera, &stage.film)
-        };
-        race::measure(stage, &terms, regions, given.map(|p| p.pixels))
-    }))
+    let bound = stage.field.buffers[0].bind();
+    let regions = {
+        let _step = Step::begin("looking for penumbrae", args.quiet);
+        region::regions(&bound.scene(), &stage.camera, &stage.film)
+    };
+    race::measure(stage, &terms, regions, given.map(|p| p.pixels))
 }
 
 /// Prints and writes what has come out.

@@ -1,6 +1,6 @@
 //! From rungs to what is told of a choice.
 
-use super::choices::{AUTO, Field};
+use super::choices::{ADAPTIVE, AUTO, Candidate, Field};
 use super::ladder::{Errors, Rung};
 use super::race::Measured;
 
@@ -13,7 +13,10 @@ const TARGET: f64 = 0.01;
 /// A rung, over all rounds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Point {
-    pub(super) samples: u32,
+    /// Samples per pixel, mean of the rounds.
+    pub(super) samples: f64,
+    /// The relative error that was asked for (a fraction), where one was.
+    pub(super) target: Option<f64>,
     /// CPU time, median of the rounds (s).
     pub(super) seconds: f64,
     /// relMSE without the noise of the reference, mean of the rounds.
@@ -38,6 +41,8 @@ pub(super) struct Outcome {
     pub(super) gain: (f64, f64),
     /// The error falls as samples to the minus this power.
     pub(super) order: Option<f64>,
+    /// CPU time to the error that `auto` has after the common time (s); `None` where the rungs do not tell.
+    pub(super) time_to_auto: Option<f64>,
     /// CPU time to an error of 1 % (s), and whether it was reached.
     pub(super) time_to_target: Option<(f64, bool)>,
 }
@@ -62,7 +67,7 @@ impl Outcomes {
         let auto = at[0];
         let rows = field.candidates.iter().zip(curves).zip(at);
         let outcome = |(i, ((candidate, curve), at)): (usize, ((&_, Vec<Point>), At))| {
-            let candidate: &super::choices::Candidate = candidate;
+            let candidate: &Candidate = candidate;
             let ratio = auto.relmse.all / at.relmse.all;
             let own = if i == 0 { 0.0 } else { auto.uncertainty };
             Outcome {
@@ -72,6 +77,7 @@ impl Outcomes {
                 trusted: at.trusted,
                 gain: (ratio, ratio * at.uncertainty.hypot(own)),
                 order: order(&curve),
+                time_to_auto: time_to(&curve, auto.relmse.all.sqrt()).filter(|_| auto.trusted),
                 time_to_target: time_to_target(&curve),
                 curve,
             }
@@ -84,11 +90,19 @@ impl Outcomes {
         &self.all[0]
     }
 
-    /// The best choice by a measure of its relMSE; `auto` unless another is better by two standard errors.
+    /// The choice that puts samples where the error is.
+    pub(super) fn adaptive(&self) -> Option<&Outcome> {
+        self.all.iter().find(|o| o.flag == ADAPTIVE)
+    }
+
+    /// The best choice by a measure of its relMSE, all with the same samples for every pixel; `auto` unless
+    /// another is better by two standard errors.
     pub(super) fn best(&self, part: impl Fn(&Errors) -> f64) -> &Outcome {
         let clearly = |o: &&Outcome| {
             let uncertainty = o.gain.1 / o.gain.0;
-            o.name != AUTO && part(&o.relmse) * (1.0 + 2.0 * uncertainty) < part(&self.auto().relmse)
+            o.name != AUTO
+                && o.flag != ADAPTIVE
+                && part(&o.relmse) * (1.0 + 2.0 * uncertainty) < part(&self.auto().relmse)
         };
         let better = self.all.iter().filter(clearly);
         better.min_by(|a, b| part(&a.relmse).total_cmp(&part(&b.relmse))).unwrap_or_else(|| self.auto())
@@ -123,7 +137,8 @@ fn curve(rounds: &[Vec<Rung>], noise: Errors) -> Vec<Point> {
                 penumbra: Moments::of(&of(&|r| r.relmse.penumbra)).mean,
             };
             Point {
-                samples: rounds[0][rung].samples,
+                samples: Moments::of(&of(&|r| r.samples)).mean,
+                target: rounds[0][rung].target,
                 seconds: median(of(&|r| r.seconds)).max(1e-9),
                 relmse: corrected(mean, noise),
                 standard_error: all.standard_error,
@@ -183,8 +198,8 @@ fn interpolated(places: &[f64], values: &[f64], place: f64) -> f64 {
 fn order(curve: &[Point]) -> Option<f64> {
     let points: Vec<_> = curve
         .iter()
-        .filter(|p| p.trusted && p.samples >= 4)
-        .map(|p| (f64::from(p.samples).ln(), 0.5 * p.relmse.all.ln()))
+        .filter(|p| p.trusted && p.samples >= 4.0)
+        .map(|p| (p.samples.ln(), 0.5 * p.relmse.all.ln()))
         .collect();
     let n = points.len() as f64;
     let mean = |f: &dyn Fn(&(f64, f64)) -> f64| points.iter().map(f).sum::<f64>() / n;
@@ -208,9 +223,17 @@ fn time_to_target(curve: &[Point]) -> Option<(f64, bool)> {
         let time = at * (last / TARGET).powf(1.0 / order(curve).unwrap_or(0.5).max(0.5));
         return Some((time, false));
     }
-    let right = errors.iter().position(|e| *e <= TARGET)?;
-    let pair = |values: &[f64]| [values[right], values[right - 1]];
-    Some((interpolated(&pair(&errors), &pair(&seconds), TARGET), true))
+    time_to(curve, TARGET).map(|time| (time, true))
+}
+
+/// CPU time to an error (s), between two rungs that are believed.
+fn time_to(curve: &[Point], error: f64) -> Option<f64> {
+    let believed: Vec<_> = curve.iter().filter(|p| p.trusted).collect();
+    let [before, after] = believed.windows(2).find_map(|pair| {
+        let [before, after] = [pair[0], pair[1]].map(|p| (p.relmse.all.sqrt(), p.seconds));
+        (after.0 <= error && error <= before.0).then_some([before, after])
+    })?;
+    Some(interpolated(&[after.0, before.0], &[after.1, before.1], error))
 }
 
 /// Mean of some numbers, and how well it is known.
@@ -249,7 +272,8 @@ mod tests {
             let samples = 1 << i;
             let e = wobble * variance * f64::from(samples).powf(-2.0 * order);
             Rung {
-                samples,
+                samples: f64::from(samples),
+                target: None,
                 seconds: cost * f64::from(samples),
                 relmse: Errors { all: e, open: e, penumbra: e },
             }
@@ -265,6 +289,10 @@ mod tests {
             let (time, _) = time_to_target(&curve).unwrap();
             let truth = cost * (variance.sqrt() / TARGET).powf(1.0 / power);
             assert!((time / truth - 1.0).abs() < 1e-6, "{time} {truth}");
+            let error = 0.5 * variance.sqrt();
+            let truth = cost * 2_f64.powf(1.0 / power);
+            assert!((time_to(&curve, error).unwrap() / truth - 1.0).abs() < 1e-6);
+            assert_eq!(time_to(&curve, 2.0 * variance.sqrt()), None);
         }
     }
 
@@ -276,7 +304,7 @@ mod tests {
             rung.relmse = Errors { penumbra: f64::NAN, ..rung.relmse.zip(noise, |a, b| a + b) };
         }
         let curve = curve(&ladders, noise);
-        assert!(curve.iter().all(|p| (p.relmse.open * f64::from(p.samples) / 0.1 - 1.0).abs() < 1e-9));
+        assert!(curve.iter().all(|p| (p.relmse.open * p.samples / 0.1 - 1.0).abs() < 1e-9));
         assert!(curve.iter().all(|p| p.relmse.penumbra.is_nan()));
         assert_eq!(curve.iter().filter(|p| p.trusted).count(), 6);
         assert_eq!(common_time(&[curve], 1e9), 32.0);

@@ -124,16 +124,26 @@ fn conclusion(measured: &Measured, outcomes: &Outcomes) -> String {
             });
         }
     }
+    lines.extend(outcomes.adaptive().map(|outcome| where_the_error_is(outcomes, outcome)));
     lines.join("\n")
+}
+
+/// What samples gain that go where the error is.
+fn where_the_error_is(outcomes: &Outcomes, adaptive: &Outcome) -> String {
+    let gain = with_uncertainty(adaptive.gain);
+    let share = adaptive.time_to_auto.map_or_else(String::new, |time| {
+        format!(", and the error of auto in {} of its time", significant(time / outcomes.time))
+    });
+    format!("samples where the error is, as --error and --time take them: {gain} times as efficient{share}")
 }
 
 /// Every rung of every choice, one to a line.
 pub(super) fn csv(outcomes: &Outcomes) -> String {
     let mut text = "choice,samples_per_pixel,cpu_seconds,relmse,relmse_standard_error,relmse_open,\
-                    relmse_penumbra,above_reference_noise\n"
+                    relmse_penumbra,above_reference_noise,target_error\n"
         .to_owned();
     for outcome in &outcomes.all {
-        for Point { samples, seconds, relmse: e, standard_error, trusted } in &outcome.curve {
+        for Point { samples, target, seconds, relmse: e, standard_error, trusted } in &outcome.curve {
             let number = |x: f64| if x.is_nan() { String::new() } else { format!("{x:e}") };
             let fields = [
                 outcome.name.clone(),
@@ -144,6 +154,7 @@ pub(super) fn csv(outcomes: &Outcomes) -> String {
                 number(e.open),
                 number(e.penumbra),
                 trusted.to_string(),
+                target.map_or_else(String::new, number),
             ];
             text += &(fields.join(",") + "\n");
         }
@@ -184,6 +195,7 @@ fn choice(outcome: &Outcome) -> Value {
     let rung = |p: &Point| {
         json!({
             "samples_per_pixel": p.samples,
+            "target_error": p.target,
             "cpu_seconds": p.seconds,
             "relmse": errors(&p.relmse),
             "relmse_standard_error": p.standard_error,
@@ -197,6 +209,7 @@ fn choice(outcome: &Outcome) -> Value {
         "efficiency": outcome.gain.0,
         "efficiency_standard_error": outcome.gain.1,
         "order": outcome.order,
+        "cpu_seconds_to_error_of_auto": outcome.time_to_auto,
         "cpu_seconds_to_1_percent": outcome.time_to_target.map(|(t, _)| t),
         "reached_1_percent": outcome.time_to_target.map(|(_, reached)| reached),
         "rungs": outcome.curve.iter().map(rung).collect::<Vec<_>>(),
