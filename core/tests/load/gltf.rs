@@ -353,7 +353,7 @@ fn what_is_not_read_is_named() {
         ("KHR_draco_mesh_compression", "export without compression"),
         ("EXT_meshopt_compression", "export without compression"),
         ("KHR_texture_basisu", "PNG or JPEG"),
-        ("EXT_lights_image_based", "--lenient"),
+        ("KHR_materials_transmission", "--lenient"),
     ] {
         let required = format!(r#","extensionsUsed":["{name}"],"extensionsRequired":["{name}"]"#);
         let error = refusal(&triangle("", "", &required), &binary);

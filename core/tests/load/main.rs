@@ -8,6 +8,7 @@ mod export;
 mod files;
 mod geometry;
 mod gltf;
+mod gltf_environment;
 mod gltf_hostile;
 mod portals;
 mod scenes;

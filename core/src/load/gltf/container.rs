@@ -9,7 +9,8 @@ use std::string::{String, ToString};
 use std::vec::Vec;
 
 /// What is read of extensions.
-const EXTENSIONS: [&str; 4] = [
+const EXTENSIONS: [&str; 5] = [
+    "EXT_lights_image_based",
     "KHR_lights_punctual",
     "KHR_materials_emissive_strength",
     "KHR_mesh_quantization",

@@ -47,6 +47,8 @@ pub(super) struct Asset {
 pub(super) struct RootExtensions {
     #[serde(rename = "KHR_lights_punctual")]
     pub(super) lights: Lights,
+    #[serde(rename = "EXT_lights_image_based")]
+    pub(super) image_lights: ImageLights,
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -76,6 +78,32 @@ pub(super) struct Spot {
     pub(super) outer_cone_angle: Option<f32>,
 }
 
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct ImageLights {
+    pub(super) lights: Vec<ImageLight>,
+}
+
+/// A light of `EXT_lights_image_based`.
+#[derive(Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct ImageLight {
+    /// A quaternion, `w` last.
+    #[serde(default = "unturned")]
+    pub(super) rotation: [f64; 4],
+    #[serde(default = "one")]
+    pub(super) intensity: f32,
+    pub(super) irradiance_coefficients: [[f32; 3]; 9],
+    /// Indices of images: the six faces of a cube, the largest ones first.
+    pub(super) specular_images: Vec<[usize; 6]>,
+    /// Columns of the largest.
+    pub(super) specular_image_size: f64,
+}
+
+fn unturned() -> [f64; 4] {
+    [0.0, 0.0, 0.0, 1.0]
+}
+
 fn one() -> f32 {
     1.0
 }
@@ -88,6 +116,14 @@ fn white() -> [f32; 3] {
 #[serde(default)]
 pub(super) struct Scene {
     pub(super) nodes: Vec<usize>,
+    pub(super) extensions: SceneExtensions,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct SceneExtensions {
+    #[serde(rename = "EXT_lights_image_based")]
+    pub(super) image_light: Option<LightReference>,
 }
 
 #[derive(Debug, Clone, Default, Deserialize)]
@@ -109,11 +145,11 @@ pub(super) struct Node {
 #[serde(default)]
 pub(super) struct NodeExtensions {
     #[serde(rename = "KHR_lights_punctual")]
-    pub(super) light: Option<LightOfNode>,
+    pub(super) light: Option<LightReference>,
 }
 
 #[derive(Debug, Clone, Deserialize)]
-pub(super) struct LightOfNode {
+pub(super) struct LightReference {
     pub(super) light: usize,
 }
 

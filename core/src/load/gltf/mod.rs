@@ -1,8 +1,8 @@
 //! glTF 2.0: what artists export.
 //!
 //! Nodes, meshes, cameras, metallic-roughness materials with their textures, and the extensions
-//! `KHR_lights_punctual`, `KHR_materials_emissive_strength`, `KHR_mesh_quantization` and
-//! `KHR_texture_transform`. Other extensions are left out with a warning, or refused by name when the file
+//! `KHR_lights_punctual`, `KHR_materials_emissive_strength`, `KHR_mesh_quantization`,
+//! `KHR_texture_transform` and `EXT_lights_image_based`. Other extensions are left out with a warning, or refused by name when the file
 //! requires them. Nothing in a file is taken at its word: ranges are checked, counts are held against the
 //! bytes that there are, and a node is visited once.
 
@@ -10,7 +10,9 @@ mod accessor;
 mod animation;
 mod camera;
 mod container;
+mod cube;
 mod document;
+mod environment;
 mod glow;
 mod light;
 mod log;
@@ -54,7 +56,7 @@ pub(super) fn load(files: &Files, path: &Path, options: &LoadOptions) -> Result<
     let source = Source::new(files, path, container.document, container.binary)
         .map_err(|(index, problem)| item(path, &format!("buffers[{index}]"), problem))?;
     let parts = Parts::gather(&source, &mut log, options.lenient)?;
-    if parts.objects.is_empty() {
+    if parts.objects.is_empty() && parts.environment.is_none() {
         return Err(LoadError::Empty { path: path.to_owned() });
     }
     let camera_path = match parts.camera_node {
@@ -70,7 +72,8 @@ pub(super) fn load(files: &Files, path: &Path, options: &LoadOptions) -> Result<
 
 /// Puts the parts together; a camera and a light where there is none.
 fn describe(mut parts: Parts, log: &mut Log<'_>, path: &Path) -> Result<Description, LoadError> {
-    if parts.lights.is_empty() && parts.objects.iter().all(|object| object.emission.is_none()) {
+    let lit = !parts.lights.is_empty() || parts.environment.is_some();
+    if !lit && parts.objects.iter().all(|object| object.emission.is_none()) {
         log.warn("nothing emits", "an even white sky lights the scene");
         let sky = Constant::new(Rgb::splat(SKY)).map_err(|e| item(path, "the sky", e.into()))?;
         parts.lights.push(AnyLight::Constant(sky));
@@ -94,7 +97,7 @@ fn describe(mut parts: Parts, log: &mut Log<'_>, path: &Path) -> Result<Descript
         materials: parts.materials.list,
         objects: parts.objects,
         lights: parts.lights,
-        environments: Vec::new(),
+        environments: parts.environment.into_iter().collect(),
         portals: Vec::new(),
     })
 }

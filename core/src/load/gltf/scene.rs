@@ -1,12 +1,12 @@
 //! The nodes of a scene, and what is at them.
 
 use super::container::{item, malformed};
-use super::document::{self, Node, Primitive};
+use super::document::{self, Document, Node, Primitive};
 use super::log::Log;
 use super::material::{Known, Materials};
 use super::source::{Source, entry};
-use super::{camera, glow, light, mesh};
-use crate::build::{CameraDescription, Geometry, Mesh, Object};
+use super::{camera, environment, glow, light, mesh};
+use crate::build::{CameraDescription, EnvironmentDescription, Geometry, Mesh, Object};
 use crate::light::AnyLight;
 use crate::load::mesh::{Placement, place};
 use crate::load::{LoadError, MeshError, Problem};
@@ -27,6 +27,7 @@ pub(super) struct Parts {
     pub(super) camera_node: Option<usize>,
     pub(super) objects: Vec<Object>,
     pub(super) lights: Vec<AnyLight<'static>>,
+    pub(super) environment: Option<EnvironmentDescription>,
     pub(super) materials: Materials,
     triangles: usize,
     lenient: bool,
@@ -40,7 +41,10 @@ impl Parts {
         let mut parts = Self { lenient, ..Self::default() };
         let nodes = &source.document.nodes;
         let fail = |name: &str, problem| item(source.path, name, problem);
-        let mut waiting = roots(source).map_err(|problem| fail("scenes", problem))?;
+        let shown = shown(&source.document).map_err(|problem| fail("scenes", problem))?;
+        let surrounding = environment::read(source, shown);
+        parts.environment = surrounding.map_err(|problem| fail("EXT_lights_image_based", problem))?;
+        let mut waiting = roots(&source.document, shown);
         let mut reached = vec![false; nodes.len()];
         while let Some((index, parent)) = waiting.pop() {
             let name = format!("nodes[{index}]");
@@ -168,14 +172,16 @@ impl Parts {
     }
 }
 
-/// The nodes to begin with, the last one first: those of the scene that the file wants shown, of its first
-/// scene, or those that are no node's child.
-fn roots(source: &Source<'_>) -> Result<Vec<(usize, DMat4)>, Problem> {
-    let document = &source.document;
-    let shown = match document.scene {
-        Some(index) => Some(entry(&document.scenes, "scenes", index)?),
-        None => document.scenes.first(),
-    };
+/// The scene that the file wants shown, or its first one; `None` when it has none.
+fn shown(document: &Document) -> Result<Option<&document::Scene>, Problem> {
+    match document.scene {
+        Some(index) => entry(&document.scenes, "scenes", index).map(Some),
+        None => Ok(document.scenes.first()),
+    }
+}
+
+/// The nodes to begin with, the last one first: those of a scene, or those that are no node's child.
+fn roots(document: &Document, shown: Option<&document::Scene>) -> Vec<(usize, DMat4)> {
     let mut roots: Vec<usize> = match shown {
         Some(scene) => scene.nodes.clone(),
         None => {
@@ -189,7 +195,7 @@ fn roots(source: &Source<'_>) -> Result<Vec<(usize, DMat4)>, Problem> {
         }
     };
     roots.reverse();
-    Ok(roots.into_iter().map(|index| (index, DMat4::IDENTITY)).collect())
+    roots.into_iter().map(|index| (index, DMat4::IDENTITY)).collect()
 }
 
 /// From the space of a node to that of its parent.

@@ -97,6 +97,21 @@ impl<'f> Source<'f> {
         Ok(self.path.with_file_name(name))
     }
 
+    /// The file of a picture, and where that is: bytes within the scene are a file of their own.
+    pub(super) fn picture(&self, index: usize) -> Result<(Files, PathBuf), Problem> {
+        let image = entry(&self.document.images, "images", index)?;
+        let embedded = |bytes| {
+            let path = PathBuf::from(format!("images[{index}]"));
+            (Files::in_memory([(path.clone(), bytes)]), path)
+        };
+        match (&image.uri, image.buffer_view) {
+            (Some(uri), _) if uri.starts_with("data:") => self.resource(uri, 0).map(embedded),
+            (Some(uri), _) => Ok((self.files.clone(), self.file(uri)?)),
+            (None, Some(view)) => Ok(embedded(self.view(view)?.0.to_vec())),
+            (None, None) => Err(malformed(format!("images[{index}] has neither a uri nor a bufferView"))),
+        }
+    }
+
     /// The bytes of a view, and how far apart its elements are.
     pub(super) fn view(&self, index: usize) -> Result<(&[u8], Option<u64>), Problem> {
         let view = entry(&self.document.buffer_views, "bufferViews", index)?;

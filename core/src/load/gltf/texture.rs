@@ -6,12 +6,11 @@ use super::log::Log;
 use super::source::{Source, entry};
 use crate::build::{TexelBuffer, TextureDescription};
 use crate::load::image::read_texels_from;
-use crate::load::{Encoding, Files, MAX_TEXELS, Problem};
+use crate::load::{Encoding, MAX_TEXELS, Problem};
 use crate::num;
 use crate::texture::{Interpolation, Kind, Pattern, UvTransform, Wrap};
 use std::collections::BTreeMap;
 use std::format;
-use std::path::PathBuf;
 use std::sync::Arc;
 
 /// The code for what is nearest, without interpolation.
@@ -74,19 +73,7 @@ impl Pictures {
         if let Some(known) = self.known.get(&(index, colour)) {
             return Ok(known.clone());
         }
-        let image = entry(&source.document.images, "images", index)?;
-        let embedded = |bytes| {
-            let path = PathBuf::from(format!("images[{index}]"));
-            (Files::in_memory([(path.clone(), bytes)]), path)
-        };
-        let (files, path) = match (&image.uri, image.buffer_view) {
-            (Some(uri), _) if uri.starts_with("data:") => embedded(source.resource(uri, 0)?),
-            (Some(uri), _) => (source.files.clone(), source.file(uri)?),
-            (None, Some(view)) => embedded(source.view(view)?.0.to_vec()),
-            (None, None) => {
-                return Err(malformed(format!("images[{index}] has neither a uri nor a bufferView")));
-            }
-        };
+        let (files, path) = source.picture(index)?;
         let encoding = if colour { Encoding::Srgb } else { Encoding::Linear };
         let read = read_texels_from(&files, &path, encoding);
         let (width, height, texels) = read.map_err(|source| Problem::Image { path, source })?;

@@ -2,10 +2,12 @@
 
 mod error;
 mod exr;
+mod rgbd;
 mod texels;
 
 pub use error::ImageError;
 pub use exr::write_exr;
+pub(super) use rgbd::read_rgbd_from;
 pub use texels::read_texels;
 pub(super) use texels::read_texels_from;
 
