@@ -3,7 +3,7 @@
 use super::node::{Node, WIDTH};
 use crate::geom::Ray;
 use crate::num;
-use glam::Vec4;
+use crate::num::lanes::{LANES, Lane, Number};
 
 /// How much farther than computed a box may reach: the rounding of its three slabs, so that a ray
 /// that grazes a box still enters it. Source: Ize 2013, *Robust BVH Ray Traversal*, JCGT 2(2).
@@ -39,10 +39,10 @@ pub(super) struct Slabs {
     /// Which plane of each axis is met first, and which last, as rows of the node.
     near: [Plane; 3],
     far: [Plane; 3],
-    near_origin: [Vec4; 3],
-    far_origin: [Vec4; 3],
-    near_inverse: [Vec4; 3],
-    far_inverse: [Vec4; 3],
+    near_origin: [Lane; 3],
+    far_origin: [Lane; 3],
+    near_inverse: [Lane; 3],
+    far_inverse: [Lane; 3],
 }
 
 /// The children that a ray enters: a bit for each, and the distances.
@@ -57,10 +57,10 @@ impl Slabs {
         let mut slabs = Self {
             near: AXES.map(|[lower, _]| lower),
             far: AXES.map(|[_, upper]| upper),
-            near_origin: [Vec4::ZERO; 3],
-            far_origin: [Vec4::ZERO; 3],
-            near_inverse: [Vec4::ZERO; 3],
-            far_inverse: [Vec4::ZERO; 3],
+            near_origin: [Lane::of(0.0); 3],
+            far_origin: [Lane::of(0.0); 3],
+            near_inverse: [Lane::of(0.0); 3],
+            far_inverse: [Lane::of(0.0); 3],
         };
         let (origin, direction) = (ray.origin.to_array(), ray.direction.to_array());
         for axis in 0..3 {
@@ -72,10 +72,10 @@ impl Slabs {
             if inverse < 0.0 {
                 [slabs.far[axis], slabs.near[axis]] = AXES[axis];
             }
-            slabs.near_origin[axis] = Vec4::splat(o + pad);
-            slabs.far_origin[axis] = Vec4::splat(o - pad);
-            slabs.near_inverse[axis] = Vec4::splat(inverse);
-            slabs.far_inverse[axis] = Vec4::splat(inverse * FAR_SLACK);
+            slabs.near_origin[axis] = Lane::of(o + pad);
+            slabs.far_origin[axis] = Lane::of(o - pad);
+            slabs.near_inverse[axis] = Lane::of(inverse);
+            slabs.far_inverse[axis] = Lane::of(inverse * FAR_SLACK);
         }
         slabs
     }
@@ -85,13 +85,18 @@ impl Slabs {
     #[cfg_attr(not(feature = "small"), inline(always))]
     #[cfg_attr(feature = "small", inline(never))]
     pub(super) fn enter(&self, node: &Node, t_max: f32) -> Entered {
-        let (mut enter, mut leave) = (Vec4::ZERO, Vec4::splat(t_max));
-        for axis in 0..3 {
-            let near = Vec4::from_array(node.planes[self.near[axis] as usize]);
-            let far = Vec4::from_array(node.planes[self.far[axis] as usize]);
-            enter = enter.max((near - self.near_origin[axis]) * self.near_inverse[axis]);
-            leave = leave.min((far - self.far_origin[axis]) * self.far_inverse[axis]);
+        let mut entered = Entered { mask: 0, near: [0.0; WIDTH] };
+        for child in (0..WIDTH).step_by(LANES) {
+            let (mut enter, mut leave) = (Lane::of(0.0), Lane::of(t_max));
+            for axis in 0..3 {
+                let near = Lane::load(&node.planes[self.near[axis] as usize], child);
+                let far = Lane::load(&node.planes[self.far[axis] as usize], child);
+                enter = enter.larger((near - self.near_origin[axis]) * self.near_inverse[axis]);
+                leave = leave.smaller((far - self.far_origin[axis]) * self.far_inverse[axis]);
+            }
+            entered.mask |= enter.not_above(leave) << child;
+            enter.store(&mut entered.near, child);
         }
-        Entered { mask: enter.cmple(leave).bitmask(), near: enter.to_array() }
+        entered
     }
 }

@@ -5,10 +5,11 @@ use super::{
     View,
 };
 use crate::geom::{Frame, unit};
+use crate::num::lanes::{self, Lane, Number};
 use crate::num::{self, TAU};
 use crate::shape::{Cylinder, SurfacePoint};
 use crate::solid_angle::{FromEnd, Span, Sweep};
-use glam::{DVec3, Vec3, Vec4};
+use glam::{DVec3, Vec3};
 
 /// The side of a tube that faces the receiver, close to uniform over its solid angle: the plane's
 /// angle about a parallel of the tube's axis through the receiver is drawn from a table; the
@@ -83,7 +84,8 @@ impl CylinderSlab {
         // A right angle from the wall itself; less from afar.
         let tangent = num::sqrt(lines.gap * (lines.distance + tube.radius()));
         let half = if inside { 1.0 } else { tube.radius() / (tangent + lines.distance) };
-        Some(Self { lines, sweep: Sweep::new(half, [lines.seen(half); 2])? })
+        let seen = lanes::map(Sweep::turns(half), |turns| lines.seen(half, turns));
+        Some(Self { lines, sweep: Sweep::new(half, [seen; 2])? })
     }
 }
 
@@ -109,12 +111,12 @@ impl Lines {
         }
     }
 
-    /// Solid angle per turn at [`Sweep::turns`] from either end: as [`Lines::angle_at`] and
-    /// [`Lines::line_at`], four at a time.
+    /// Solid angle per turn at some turns from either end: as [`Lines::angle_at`] and
+    /// [`Lines::line_at`], several at a time.
     #[inline]
-    fn seen(&self, half: f32) -> Vec4 {
+    fn seen(&self, half: f32, turns: Lane) -> Lane {
         let (d, r) = (self.distance, self.tube.radius());
-        let z = Vec4::splat(half) - Sweep::turns(half);
+        let z = Lane::of(half) - turns;
         let scale = (z * z + 1.0).recip() * 2.0;
         let (sin, cos) = (z * scale, (1.0 - z) * (z + 1.0) * 0.5 * scale);
         let (sin, cos, rate) = if self.inside {
@@ -122,15 +124,14 @@ impl Lines {
         } else {
             (sin, cos, scale)
         };
-        let half_chord = num::sqrt_of_four((r - sin * d) * (sin * d + r));
+        let half_chord = ((r - sin * d) * (sin * d + r)).root();
         let (power, middle) = (self.gap * (d + r), cos * d);
         let away = if self.gap > 0.0 {
             power / (middle + half_chord)
         } else {
-            let ahead = middle.cmpgt(Vec4::ZERO);
-            Vec4::select(ahead, middle + half_chord, -power / (half_chord - middle))
+            middle.if_positive(middle + half_chord, -power / (half_chord - middle))
         };
-        Span::extents(Vec4::splat(self.start), Vec4::splat(self.length), away) * rate
+        Span::extents(Lane::of(self.start), Lane::of(self.length), away) * rate
     }
 
     /// Sine and cosine of the plane's angle `α` at a turn, and the angle per turn. A turn is

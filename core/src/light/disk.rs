@@ -7,10 +7,11 @@ use super::{
 use crate::geom::unit;
 use crate::irradiance;
 use crate::num;
+use crate::num::lanes::{self, Lane, Number};
 use crate::shape::{Disk, SurfacePoint};
 use crate::solid_angle::{FromEnd, Span, Sweep};
 use crate::warp;
-use glam::{Vec2, Vec3, Vec4};
+use glam::{Vec2, Vec3};
 
 /// A disk or ellipse, close to uniform over its solid angle: the plane's angle about an axis that
 /// passes through the receiver, parallel to the disk and across the way to its centre, is drawn from
@@ -112,7 +113,8 @@ impl DiskSlab {
     fn new(disk: &Disk, from: &Receiver, normal: Vec3, rise: f32) -> Option<Self> {
         let lines = Lines::new(disk, from, normal, rise)?;
         let half = 0.5 * (lines.to_centre[0] + lines.to_centre[1]);
-        Some(Self { lines, sweep: Sweep::new(half, [lines.seen(half, true), lines.seen(half, false)])? })
+        let seen = |low| lanes::map(Sweep::turns(half), |turns| lines.seen(half, low, turns));
+        Some(Self { lines, sweep: Sweep::new(half, [seen(true), seen(false)])? })
     }
 }
 
@@ -150,25 +152,24 @@ impl Lines {
         })
     }
 
-    /// Solid angle per turn at [`Sweep::turns`] from an end.
+    /// Solid angle per turn at some turns from an end.
     ///
     /// With less care than [`Lines::line_at`], which a table may take: the distances of a line from
     /// both edges are measured each for itself, so that neither vanishes before the edge.
     #[inline]
-    fn seen(&self, half: f32, low: bool) -> Vec4 {
+    fn seen(&self, half: f32, low: bool, turns: Lane) -> Lane {
         let h = self.height;
-        let turns = Sweep::turns(half);
         let [near, far] =
             if low { [&self.marks[0], &self.marks[2]] } else { [&self.marks[2], &self.marks[0]] };
         let inward = if low { 1.0 } else { -1.0 };
         let z = turns * inward + near.turn;
-        let rest = Vec4::splat(near.rest) - turns * inward * (z + near.turn);
+        let rest = Lane::of(near.rest) - turns * inward * (z + near.turn);
         // Distances from both edges, in units of the reach.
-        let across = |edge: &Mark, apart: Vec4| {
+        let across = |edge: &Mark, apart: Lane| {
             apart * (z * edge.turn + 1.0) * (2.0 * h / edge.rest / self.reach) / rest
         };
         let (m, n) = (across(near, turns), across(far, 2.0 * half - turns));
-        let half_length = num::sqrt_of_four(m * n) * self.half_chord;
+        let half_length = (m * n).root() * self.half_chord;
         let middle = (m - n) * (0.5 * inward * self.shear * self.reach);
         let turned = z * z + 1.0;
         let away = turned / rest * h;

@@ -4,6 +4,7 @@
 //! here, also where the platform would offer its own: a picture rendered on x86-64, in WebAssembly
 //! and on a Cortex-M is the same.
 
+pub(crate) mod lanes;
 mod trig;
 
 use glam::Vec4;

@@ -1,6 +1,6 @@
 //! The length of an arc over its chord, and how it changes.
 
-use super::number::Number;
+use crate::num::lanes::Number;
 
 /// Coefficients of `atan(√x) / √x` in powers of x for `x` in `[0, 1.25]`: error at most 3e-8, of the
 /// derivative at most 2.1e-6. Derived: interpolation at the Chebyshev nodes of that range.

@@ -1,8 +1,8 @@
 //! The part of a cap above the horizon that cuts it, in slices across.
 
 use super::cap::Rim;
-use super::number::Number;
 use crate::num;
+use crate::num::lanes::{self, Number};
 use glam::Vec4;
 
 /// Slices across a cap that the horizon cuts: at `y = y_max sin ψ`, where `τ = tan ½ψ`.
@@ -114,7 +114,8 @@ impl Cut {
     /// Projected solid angle of the slices from the middle to `τ` (sr), as if all ended at the horizon.
     #[cfg_attr(not(feature = "small"), inline(always))]
     fn mass_of_cut_slices(&self, tau: f32) -> f32 {
-        let [low, high] = GAUSS.map(|(node, weight)| self.cut_slice(node * tau).strip() * weight);
+        let [low, high] =
+            GAUSS.map(|(node, weight)| lanes::map(node * tau, |tau| self.cut_slice(tau).strip()) * weight);
         let [a, b, c, d] = (low + high).to_array();
         tau * ((a + b) + (c + d))
     }

@@ -8,7 +8,6 @@ mod clip;
 mod cut;
 mod lanes;
 mod meridian;
-mod number;
 #[cfg(test)]
 pub(crate) mod oracle;
 mod polygon;

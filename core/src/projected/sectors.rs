@@ -6,11 +6,12 @@ use super::lanes::{self, Ends};
 use super::meridian::{Meridian, Places};
 use super::sector::{Sector, WIDE};
 use crate::num;
-use glam::{DVec3, Vec2, Vec3, Vec4};
+use crate::num::lanes::{LANES, Lane, Number};
+use glam::{DVec3, Vec2, Vec3};
 
 /// The sectors of a polygon, in the order of azimuth; `N − 1` at most.
 ///
-/// Coordinate by coordinate, so that the areas of four are worked out at once.
+/// Coordinate by coordinate, so that several areas are worked out at once.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Sectors<const N: usize> {
     /// True when they reach up to the zenith.
@@ -138,23 +139,19 @@ impl<const N: usize> Sectors<N> {
     /// Works out the areas of what has been added.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn measure(&mut self) {
-        self.measure_four(0);
-        for i in (4..self.len).step_by(4) {
-            self.measure_four(i);
+        self.measure_some(0);
+        for i in (LANES..self.len).step_by(LANES) {
+            self.measure_some(i);
         }
     }
 
     #[cfg_attr(not(feature = "small"), inline(always))]
-    fn measure_four(&mut self, i: usize) {
-        let pole = self.poles.each_ref().map(|p| four(p, i));
+    fn measure_some(&mut self, i: usize) {
+        let pole = self.poles.each_ref().map(|p| Lane::load(p, i));
         let (cos, areas) = lanes::areas(&self.ends(i), &self.ends(i + 1), pole, self.to_zenith);
         // Beyond the end the poles are 0, and so are the areas.
-        let areas = areas.to_array();
-        match self.areas.get_mut(i..i + 4) {
-            Some(all) => all.copy_from_slice(&areas),
-            None => self.areas.iter_mut().skip(i).zip(areas).for_each(|(slot, area)| *slot = area),
-        }
-        if cos.min_element() < WIDE {
+        areas.store(&mut self.areas, i);
+        if cos.least() < WIDE {
             self.measure_wide(i);
         }
         self.total = self.areas.iter().sum();
@@ -166,7 +163,7 @@ impl<const N: usize> Sectors<N> {
 
     #[cold]
     fn measure_wide(&mut self, from: usize) {
-        for i in from..self.len.min(from + 4) {
+        for i in from..self.len.min(from + LANES) {
             let sector = self.get(i);
             if sector.is_wide() {
                 // Without width, the ends may be opposite.
@@ -177,7 +174,7 @@ impl<const N: usize> Sectors<N> {
 
     #[cfg_attr(not(feature = "small"), inline(always))]
     fn ends(&self, i: usize) -> Ends {
-        Ends { outer: self.outer.each_ref().map(|o| four(o, i)), rise: four(&self.rises, i) }
+        Ends { outer: self.outer.each_ref().map(|o| Lane::load(o, i)), rise: Lane::load(&self.rises, i) }
     }
 
     /// The areas (sr).
@@ -219,18 +216,4 @@ impl<const N: usize> Sectors<N> {
         let pole = self.poles.each_ref().map(|p| p[i]).into();
         Sector::new(self.meridian(i), self.meridian(i + 1), pole, self.to_zenith)
     }
-}
-
-/// Four numbers from index `i` on, 0 beyond the end.
-#[cfg_attr(not(feature = "small"), inline(always))]
-fn four(values: &[f32], i: usize) -> Vec4 {
-    match values.get(i..i + 4) {
-        Some(four) => Vec4::from_slice(four),
-        None => rest(values, i),
-    }
-}
-
-#[cold]
-fn rest(values: &[f32], i: usize) -> Vec4 {
-    core::array::from_fn(|k| values.get(i + k).copied().unwrap_or(0.0)).into()
 }

@@ -5,6 +5,7 @@
 //! distributed is the choice of a small table; the density is exact whatever the table holds.
 
 use crate::num;
+use crate::num::lanes::{Lane, Number};
 use glam::Vec4;
 
 /// Intervals of a sweep's table: as many as four lanes fill on either side.
@@ -58,14 +59,14 @@ impl Span {
         span.sines(span.length)
     }
 
-    /// Extents in `h` of four spans, by their starts, lengths and distances (m).
+    /// Extents in `h` of several spans, by their starts, lengths and distances (m).
     #[inline]
-    pub(crate) fn extents(x0: Vec4, length: Vec4, t: Vec4) -> Vec4 {
+    pub(crate) fn extents(x0: Lane, length: Lane, t: Lane) -> Lane {
         let (x1, tt) = (x0 + length, t * t);
-        let (r0, r1) = (num::sqrt_of_four(x0 * x0 + tt), num::sqrt_of_four(x1 * x1 + tt));
+        let (r0, r1) = ((x0 * x0 + tt).root(), (x1 * x1 + tt).root());
         let along = x0 * x1;
         let beside = (t / r0) * (t / r1) * length * ((r0 + r1) / (r0 * r1 + tt + along));
-        Vec4::select(along.cmpgt(Vec4::ZERO), beside, x1 / r1 - x0 / r0)
+        along.if_positive(beside, x1 / r1 - x0 / r0)
     }
 
     /// The point with the share `u` of the extent before it: its offset from the foot (m), and the
