@@ -18,7 +18,12 @@ const POLYNOMIALS: [(usize, u32); LANES - 1] = [(1, 0), (2, 1), (3, 1)];
 /// Their first direction numbers.
 const FIRST: [[u32; 3]; LANES - 1] = [[1, 0, 0], [1, 3, 0], [1, 3, 1]];
 
+/// What each bit adds: a quarter of [`TABLE`], for four times the steps.
+#[cfg(feature = "small")]
+static COLUMNS: [[u32; LANES]; 32] = directions();
+
 /// What each value of each four bits of a reversed index adds to the reversed point: 2 KiB.
+#[cfg(not(feature = "small"))]
 static TABLE: [[[u32; LANES]; 16]; 8] = table();
 
 /// Direction numbers, bits reversed: column `i` of the generator matrices, for bit `i` of the index.
@@ -50,7 +55,43 @@ const fn directions() -> [[u32; LANES]; 32] {
     columns
 }
 
+/// The sum of the columns for a reversed index.
+#[cfg(feature = "small")]
+fn sum(index: u32) -> [u32; LANES] {
+    let columns = COLUMNS.iter().rev().enumerate().filter(|(bit, _)| index >> bit & 1 == 1);
+    columns.fold([0; LANES], |x, (_, column)| core::array::from_fn(|lane| x[lane] ^ column[lane]))
+}
+
+/// The sum of the columns for a reversed index.
+#[cfg(not(feature = "small"))]
+#[inline]
+fn sum(index: u32) -> [u32; LANES] {
+    let mut x = [0; LANES];
+    for (nibble, sums) in TABLE.iter().enumerate() {
+        let sum = sums[(index >> (4 * nibble) & 15) as usize];
+        for lane in 0..LANES {
+            x[lane] ^= sum[lane];
+        }
+    }
+    x
+}
+
+/// One coordinate of it.
+#[cfg(feature = "small")]
+fn sum_of_lane(index: u32, lane: usize) -> u32 {
+    sum(index)[lane]
+}
+
+/// One coordinate of it.
+#[cfg(not(feature = "small"))]
+#[inline]
+fn sum_of_lane(index: u32, lane: usize) -> u32 {
+    let digit = |nibble: usize| (index >> (4 * nibble) & 15) as usize;
+    (0..8).fold(0, |x, nibble| x ^ TABLE[nibble][digit(nibble)][lane])
+}
+
 /// Sums of the columns, for four bits at a time. Bit `i` of the index is bit `31 − i` of the reversed one.
+#[cfg(not(feature = "small"))]
 const fn table() -> [[[u32; LANES]; 16]; 8] {
     let (columns, mut table) = (directions(), [[[0; LANES]; 16]; 8]);
     let mut entry = 0;
@@ -99,14 +140,7 @@ const fn shuffled(index: u32, seed: u32) -> u32 {
 /// Source: Burley 2020, *Practical Hash-based Owen Scrambling*, JCGT 9(4), listings 1 to 3.
 #[inline]
 pub(super) fn point(index: u32, seed: u32) -> [f32; LANES] {
-    let index = shuffled(index, seed);
-    let mut x = [0; LANES];
-    for (nibble, sums) in TABLE.iter().enumerate() {
-        let sum = sums[(index >> (4 * nibble) & 15) as usize];
-        for lane in 0..LANES {
-            x[lane] ^= sum[lane];
-        }
-    }
+    let x = sum(shuffled(index, seed));
     let mut u = [0.0; LANES];
     for lane in 0..LANES {
         u[lane] = num::unit_f32(scramble(x[lane], lane_seed(seed, lane)).reverse_bits());
@@ -117,9 +151,7 @@ pub(super) fn point(index: u32, seed: u32) -> [f32; LANES] {
 /// One coordinate of the same point.
 #[inline]
 pub(super) fn coordinate(index: u32, lane: usize, seed: u32) -> f32 {
-    let index = shuffled(index, seed);
-    let digit = |nibble: usize| (index >> (4 * nibble) & 15) as usize;
-    let x = (0..8).fold(0, |x, nibble| x ^ TABLE[nibble][digit(nibble)][lane]);
+    let x = sum_of_lane(shuffled(index, seed), lane);
     num::unit_f32(scramble(x, lane_seed(seed, lane)).reverse_bits())
 }
 
