@@ -85,76 +85,84 @@ impl<'a, L: Emitter> Portals<'a, L> {
     pub const fn portals(&self) -> &'a [Portal] {
         self.portals
     }
+}
 
-    /// Projected solid angle that a receiver sees of all portals (sr).
-    #[inline]
-    fn seen(&self, from: &Receiver) -> f32 {
-        self.portals.iter().map(|portal| portal.seen(from)).sum()
-    }
+/// Projected solid angle that a receiver sees of all portals (sr).
+#[inline]
+fn seen_of_all(portals: &[Portal], from: &Receiver) -> f32 {
+    portals.iter().map(|portal| portal.seen(from)).sum()
+}
 
-    /// A direction through one of the portals, which is chosen in proportion to what is seen of it;
-    /// that portal's index, and its density of the direction (sr⁻¹).
-    #[inline]
-    fn through(&self, from: &Receiver, seen: f32, mut u: [f32; 2]) -> Option<(Vec3, usize, f32)> {
-        let mut left = u[0] * seen;
-        let mut chosen = None;
-        for (index, portal) in self.portals.iter().enumerate() {
-            let own = portal.seen(from);
-            if !(own > 0.0) {
-                continue;
-            }
-            chosen = Some(index);
-            u[0] = (left / own).min(ONE_MINUS_EPSILON);
-            if left < own {
-                break;
-            }
-            left -= own;
+/// A direction through one of the portals, which is chosen in proportion to what is seen of it;
+/// that portal's index, and its density of the direction (sr⁻¹).
+#[inline]
+fn through(portals: &[Portal], from: &Receiver, seen: f32, mut u: [f32; 2]) -> Option<(Vec3, usize, f32)> {
+    let mut left = u[0] * seen;
+    let mut chosen = None;
+    for (index, portal) in portals.iter().enumerate() {
+        let own = portal.seen(from);
+        if !(own > 0.0) {
+            continue;
         }
-        let index = chosen?;
-        let sample = self.portals.get(index)?.0.sample(from, THROUGH, u)?;
-        match sample.density {
-            Density::SolidAngle(pdf) => Some((sample.wi, index, pdf)),
-            Density::Delta => None,
+        chosen = Some(index);
+        u[0] = (left / own).min(ONE_MINUS_EPSILON);
+        if left < own {
+            break;
         }
+        left -= own;
     }
+    let index = chosen?;
+    let sample = portals.get(index)?.0.sample(from, THROUGH, u)?;
+    match sample.density {
+        Density::SolidAngle(pdf) => Some((sample.wi, index, pdf)),
+        Density::Delta => None,
+    }
+}
 
-    /// Density of the mixture (sr⁻¹).
-    ///
-    /// * `drawn` – the portal that the direction was drawn through, and its density
-    #[inline]
-    fn mixture(&self, from: &Receiver, wi: Vec3, seen: f32, drawn: Option<(usize, f32)>) -> f32 {
-        let ray = Ray::new(from.point, wi);
-        let prepared = PreparedRay::new(ray);
-        let mut pdf = 0.0;
-        for (index, portal) in self.portals.iter().enumerate() {
-            // At the edge a rounded direction might miss the portal that it was drawn through.
-            let own = match drawn {
-                Some((through, own)) if through == index => own,
-                _ => portal.pdf(from, &prepared, &ray),
-            };
-            if own > 0.0 {
-                pdf += own * portal.seen(from);
-            }
+/// Density of the mixture (sr⁻¹).
+///
+/// * `escaping` – that of the environment itself
+/// * `drawn` – the portal that the direction was drawn through, and its density
+#[inline]
+fn mixture(
+    portals: &[Portal],
+    from: &Receiver,
+    wi: Vec3,
+    seen: f32,
+    escaping: f32,
+    drawn: Option<(usize, f32)>,
+) -> f32 {
+    let ray = Ray::new(from.point, wi);
+    let prepared = PreparedRay::new(ray);
+    let mut pdf = 0.0;
+    for (index, portal) in portals.iter().enumerate() {
+        // At the edge a rounded direction might miss the portal that it was drawn through.
+        let own = match drawn {
+            Some((through, own)) if through == index => own,
+            _ => portal.pdf(from, &prepared, &ray),
+        };
+        if own > 0.0 {
+            pdf += own * portal.seen(from);
         }
-        SHARE * pdf / seen + (1.0 - SHARE) * self.light.pdf_escaping(from, wi)
     }
+    SHARE * pdf / seen + (1.0 - SHARE) * escaping
 }
 
 impl<L: Emitter> Emitter for Portals<'_, L> {
     #[inline]
     fn sample(&self, from: &Receiver, method: SurfaceDensity, u: [f32; 2]) -> Option<LightSample> {
-        let seen = self.seen(from);
+        let seen = seen_of_all(self.portals, from);
         if !(seen > 0.0) {
             return self.light.sample(from, method, u);
         }
         let (wi, drawn) = if u[0] < SHARE {
-            let (wi, index, pdf) = self.through(from, seen, [u[0] / SHARE, u[1]])?;
+            let (wi, index, pdf) = through(self.portals, from, seen, [u[0] / SHARE, u[1]])?;
             (wi, Some((index, pdf)))
         } else {
             let rest = ((u[0] - SHARE) / (1.0 - SHARE)).min(ONE_MINUS_EPSILON);
             (self.light.sample(from, method, [rest, u[1]])?.wi, None)
         };
-        let pdf = self.mixture(from, wi, seen, drawn);
+        let pdf = mixture(self.portals, from, wi, seen, self.light.pdf_escaping(from, wi), drawn);
         (pdf > 0.0 && pdf.is_finite()).then(|| LightSample {
             wi,
             distance: f32::INFINITY,
@@ -165,8 +173,9 @@ impl<L: Emitter> Emitter for Portals<'_, L> {
 
     #[inline]
     fn pdf_escaping(&self, from: &Receiver, wi: Vec3) -> f32 {
-        let seen = self.seen(from);
-        if seen > 0.0 { self.mixture(from, wi, seen, None) } else { self.light.pdf_escaping(from, wi) }
+        let seen = seen_of_all(self.portals, from);
+        let escaping = self.light.pdf_escaping(from, wi);
+        if seen > 0.0 { mixture(self.portals, from, wi, seen, escaping, None) } else { escaping }
     }
 
     #[inline]
