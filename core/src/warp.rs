@@ -19,7 +19,7 @@ pub fn square_to_disk(u: [f32; 2]) -> Vec2 {
     }
     let (r, phi) =
         if a.abs() > b.abs() { (a, FRAC_PI_4 * (b / a)) } else { (b, FRAC_PI_2 - FRAC_PI_4 * (a / b)) };
-    let (sin, cos) = num::sin_cos(phi);
+    let (sin, cos) = num::sin_cos_near(phi);
     Vec2::new(r * cos, r * sin)
 }
 

@@ -45,7 +45,7 @@ impl LightNode {
         let cone = bounds.directions;
         let axis = unit(bounds.normal).unwrap_or(cone.axis);
         let between = num::atan2(axis.cross(cone.axis).length(), axis.dot(cone.axis));
-        let (_, cos) = num::sin_cos((cone.angle + between).min(PI));
+        let (_, cos) = num::sin_cos_near((cone.angle + between).min(PI));
         let side = if bounds.two_sided { SIGN } else { 0 };
         let byte = |x: f32| (num::clamp(x, 0.0, 1.0) * 255.0 + 0.5) as u8;
         Self {

@@ -82,12 +82,12 @@ impl Segment {
         let half = num::atan2_in_double(num::sqrt_in_double((most - self.up) * (most + self.up)), -self.up);
         let (low, high) = (middle - half, middle + half);
         let (start, end) = (low.abs(), high.min(2.0 * PI - high));
-        let mut sum = self.integral(start, end, |t| self.strip(t, true));
+        let mut sum = self.integral(start, end, true);
         if low < 0.0 {
-            sum += self.integral(0.0, start, |t| self.strip(t, false));
+            sum += self.integral(0.0, start, false);
         }
         if high > PI {
-            sum += self.integral(end, PI, |t| self.strip(t, false));
+            sum += self.integral(end, PI, false);
         }
         self.a * self.h * sum
     }
@@ -110,7 +110,8 @@ impl Segment {
     }
 
     /// `∫ sin t f dt` over the strips, by pieces that are short against their distance.
-    fn integral(&self, from: f64, to: f64, strip: impl Fn(f64) -> Strip) -> f64 {
+    fn integral(&self, from: f64, to: f64, is_cut: bool) -> f64 {
+        let strip = |t: f64| self.strip(t, is_cut);
         let (mut sum, mut t, mut step) = (0.0, from, (to - from).min(WIDEST));
         let mut here = strip(t);
         for _ in 0..MOST {

@@ -34,7 +34,7 @@ impl Cone {
         let angle = 0.5 * (wide.angle + between + narrow.angle);
         let Some(pole) = unit(across).filter(|_| angle < PI) else { return Self::ALL };
         // Turned from the wider cone's axis toward the other's.
-        let (sin, cos) = num::sin_cos(angle - wide.angle);
+        let (sin, cos) = num::sin_cos_near(angle - wide.angle);
         let axis = wide.axis * cos + pole.cross(wide.axis) * sin;
         Self { axis: unit(axis).unwrap_or(wide.axis), angle }
     }

@@ -239,7 +239,7 @@ impl SampledShape for Cylinder {
     #[inline]
     fn sample_area(&self, u: [f32; 2]) -> SurfacePoint {
         let frame = Frame::from_normal(self.unit_axis());
-        let (sin, cos) = num::sin_cos(TAU * u[1]);
+        let (sin, cos) = num::sin_cos_near(TAU * u[1]);
         self.point(u[0], frame.s * cos + frame.t * sin)
     }
 

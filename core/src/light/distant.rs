@@ -30,7 +30,7 @@ impl DistantDisk {
     /// negative, NaN or infinite.
     pub fn new(toward: Vec3, radius: f32, radiance: Rgb) -> Result<Self, LightError> {
         let axis = unit(toward).ok_or(LightError::NoDirection)?;
-        let sin = num::sin_cos(radius).0;
+        let sin = num::sin_cos_near(radius).0;
         if !(radius > 0.0 && radius <= num::FRAC_PI_4 && sin * sin > 0.0) {
             return Err(LightError::AngularRadius { radius });
         }

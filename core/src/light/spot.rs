@@ -111,7 +111,7 @@ impl Emitter for Spot {
     fn bounds(&self) -> Option<LightBounds> {
         let directions = Cone { axis: self.axis, angle: self.cutoff };
         // The mean of the beam's directions; on the axis they count as much as `expected_cosine` says.
-        let (_, cos) = num::sin_cos(self.beam);
+        let (_, cos) = num::sin_cos_near(self.beam);
         let along = 0.5 + 0.5 * cos;
         let intensity = positive(self.intensity.average(), 1.0 / expected_cosine(along, along));
         Some(LightBounds::at(self.position, directions, self.axis * along, intensity))
@@ -120,7 +120,7 @@ impl Emitter for Spot {
     /// Solid angle of the beam and half of the edge's, times the intensity.
     fn power(&self, _scene_radius: f32) -> f32 {
         let cap = |angle: f32| {
-            let (sin, _) = num::sin_cos(0.5 * angle);
+            let (sin, _) = num::sin_cos_near(0.5 * angle);
             2.0 * sin * sin
         };
         TAU * 0.5 * (cap(self.beam) + cap(self.cutoff)) * self.intensity.average()

@@ -4,10 +4,13 @@
 //! here, also where the platform would offer its own: a picture rendered on x86-64, in WebAssembly
 //! and on a Cortex-M is the same.
 
+mod double;
 pub(crate) mod lanes;
 mod trig;
 
+pub use double::{atan2_in_double, sin_cos_in_double, sqrt_in_double};
 use glam::Vec4;
+pub(crate) use trig::sin_cos_near;
 pub use trig::{atan2, atan2_of_four, sin_cos, sin_cos_turns};
 
 pub use core::f32::consts::{FRAC_1_PI, FRAC_PI_2, FRAC_PI_4, PI, TAU};
@@ -64,27 +67,6 @@ pub fn fraction(x: f32) -> f32 {
     let rest = x - (x as i32) as f32;
     let rest = if rest < 0.0 { rest + 1.0 } else { rest };
     if (0.0..1.0).contains(&rest) { rest } else { 0.0 }
-}
-
-/// Square root in double precision; NaN below 0.
-#[inline]
-#[must_use]
-pub fn sqrt_in_double(x: f64) -> f64 {
-    libm::sqrt(x)
-}
-
-/// Sine and cosine in double precision of an angle (rad).
-#[inline]
-#[must_use]
-pub fn sin_cos_in_double(x: f64) -> (f64, f64) {
-    libm::sincos(x)
-}
-
-/// Angle of the vector (x, y) in double precision (rad), in `[−π, π]`.
-#[inline]
-#[must_use]
-pub fn atan2_in_double(y: f64, x: f64) -> f64 {
-    libm::atan2(y, x)
 }
 
 /// `x` in `[0, 1)`: the nearest there, and 0 for NaN.

@@ -45,9 +45,14 @@ const ROUNDING: f32 = 12_582_912.0;
 #[must_use]
 pub fn sin_cos(x: f32) -> (f32, f32) {
     // NaN goes the long way too.
-    if !(x.abs() <= FAR) {
-        return sin_cos_far(x);
-    }
+    if x.abs() <= FAR { sin_cos_near(x) } else { sin_cos_far(x) }
+}
+
+/// The same of an angle that its maker keeps within 100 rad: without what is for others, which a program
+/// then does not have. Not right beyond.
+#[inline]
+#[must_use]
+pub(crate) fn sin_cos_near(x: f32) -> (f32, f32) {
     let shifted = x * (1.0 / FRAC_PI_2) + ROUNDING;
     let quarters = shifted - ROUNDING;
     let rest = QUARTER.iter().fold(x, |rest, part| rest - quarters * part);

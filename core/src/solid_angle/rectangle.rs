@@ -287,7 +287,7 @@ impl SphericalRectangle {
     /// The column below which is the share `u` of the solid angle, and how far from the low one.
     #[cfg_attr(not(feature = "small"), inline(always))]
     fn column_of(&self, u: f32) -> [f32; 2] {
-        let (sin, cos) = num::sin_cos(0.5 * u * self.solid_angle);
+        let (sin, cos) = num::sin_cos_near(0.5 * u * self.solid_angle);
         // Half of what is above the column.
         let [cos_half, sin_half] = self.half;
         let rest = [cos_half * cos + sin_half * sin, sin_half * cos - cos_half * sin];

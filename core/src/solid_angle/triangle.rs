@@ -193,7 +193,7 @@ impl SphericalTriangle {
     #[cfg_attr(not(feature = "small"), inline(always))]
     #[must_use]
     pub fn sample(&self, u: [f32; 2]) -> Option<TrianglePlace> {
-        let arc = Arc::new(self, num::sin_cos(0.5 * u[0] * self.solid_angle));
+        let arc = Arc::new(self, num::sin_cos_near(0.5 * u[0] * self.solid_angle));
         // The arc's end: its share of the edge from the first to the third corner, and its distance.
         let [along, across] = self.base;
         let (rise, sin) = (across * arc.cos - along * arc.sin, self.first * arc.sin);
