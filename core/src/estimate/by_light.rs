@@ -97,7 +97,7 @@ impl<D: StaticDensity> Estimator for ByLight<D> {
         if bsdf.is_black() {
             return emitted;
         }
-        let shading = Shading::new(&hit, bsdf, wo, || scene.tangent(&hit));
+        let shading = Shading::new(&hit, &bsdf, wo, || scene.tangent(&hit));
         let mut sum = Rgb::BLACK;
         for light in scene.lights().iter().enumerate() {
             let u = sequence.point(Dimension::Light(light.0 as u32), 0, 1);

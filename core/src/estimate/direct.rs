@@ -86,7 +86,7 @@ impl Direct<'_> {
         if bsdf.is_black() {
             return emitted;
         }
-        let shading = Shading::new(hit, bsdf, wo, || scene.tangent(hit));
+        let shading = Shading::new(hit, &bsdf, wo, || scene.tangent(hit));
         emitted + Gather::new(self, scene, &shading, known).reflected(sequence, observer)
     }
 }
@@ -137,7 +137,8 @@ impl Estimator for Direct<'_> {
         if material.is_textured() || hit.light != NONE {
             return false;
         }
-        let shading = Shading::new(hit, material.at(|| Vec2::ZERO), wo, || scene.tangent(hit));
+        let bsdf = material.at(|| Vec2::ZERO);
+        let shading = Shading::new(hit, &bsdf, wo, || scene.tangent(hit));
         Gather::new(self, scene, &shading, known).is_smooth()
     }
 }

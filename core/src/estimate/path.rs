@@ -139,7 +139,7 @@ impl Path<'_> {
         if bsdf.is_black() {
             return (Rgb::BLACK, None);
         }
-        let shading = Shading::new(at, bsdf, *wo, || scene.tangent(at));
+        let shading = Shading::new(at, &bsdf, *wo, || scene.tangent(at));
         let direct = self.lit(bounces);
         let gather = Gather::new(&direct, scene, &shading, ());
         let light = gather.light_part(sequence, observer);

@@ -11,7 +11,7 @@ use glam::Vec3;
 pub(super) struct Shading<'s, B> {
     pub(super) at: &'s Interaction,
     pub(super) receiver: Receiver,
-    bsdf: B,
+    bsdf: &'s B,
     frame: Frame,
     wo: Vec3,
     /// Geometric normal on the side that is looked at.
@@ -27,7 +27,7 @@ impl<'s, B: Bsdf> Shading<'s, B> {
     /// meshes have no dark rim. Light through the geometric surface is left out; in Mitsuba it leaks
     /// where nothing else is in the way.
     #[inline]
-    pub(super) fn new(at: &'s Interaction, bsdf: B, wo: Vec3, tangent: impl FnOnce() -> Vec3) -> Self {
+    pub(super) fn new(at: &'s Interaction, bsdf: &'s B, wo: Vec3, tangent: impl FnOnce() -> Vec3) -> Self {
         let front = at.at.normal.dot(wo) >= 0.0;
         let side = if front { at.at.normal } else { -at.at.normal };
         let receiver = at.receiver(wo);
@@ -43,7 +43,7 @@ impl<'s, B: Bsdf> Shading<'s, B> {
 
     #[inline]
     pub(super) fn bsdf(&self) -> &B {
-        &self.bsdf
+        self.bsdf
     }
 
     /// `f_r cos θ` toward the world direction `wi` and the density with which the BSDF draws it;

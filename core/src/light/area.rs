@@ -214,7 +214,8 @@ impl<S: SampledShape, R: SurfaceRadiance> Emitter for AreaLight<S, R> {
     }
 
     /// `E = L` times the projected solid angle, when the radiance is the same everywhere.
-    #[inline]
+    #[cfg_attr(not(feature = "small"), inline)]
+    #[cfg_attr(feature = "small", inline(never))]
     fn unshadowed_irradiance(&self, from: &Receiver) -> Option<Rgb> {
         let irradiance = self.radiance.uniform()? * self.shape.projected_solid_angle(from, self.sides)?;
         irradiance.is_finite().then_some(irradiance)

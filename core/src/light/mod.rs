@@ -317,6 +317,7 @@ impl Emitter for AnyLight<'_> {
         each_light!(self, l => l.is_delta())
     }
 
+    #[cfg_attr(feature = "small", inline(never))]
     fn bounds(&self) -> Option<LightBounds> {
         each_light!(self, l => l.bounds())
     }

@@ -35,6 +35,7 @@ impl<const N: usize> Above<N> {
     ///
     /// True when all are above the horizon.
     #[cfg_attr(not(feature = "small"), inline(always))]
+    #[cfg_attr(feature = "small", inline(never))]
     pub(super) fn fill(&mut self, frame: &mut Frame, chart: &Chart, places: &[Vec2]) -> bool {
         self.volume = chart.volume().abs();
         if !(self.volume > 0.0 && self.volume < f64::INFINITY) {
