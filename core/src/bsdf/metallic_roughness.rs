@@ -5,7 +5,6 @@ use super::microfacet::{Ggx, MIN_ALPHA};
 use super::{Bsdf, BsdfError, BsdfSample};
 use crate::Rgb;
 use crate::num::{self, FRAC_1_PI, PI};
-use crate::warp;
 use glam::Vec3;
 
 /// What a dielectric of index of refraction 1.5 reflects facing.
@@ -129,26 +128,14 @@ impl Bsdf for MetallicRoughness {
     /// Density: the mixture of the facets that `wo` sees and of `cos θ / π`.
     #[inline]
     fn sample(&self, wo: Vec3, u: [f32; 2], u_lobe: f32) -> Option<BsdfSample> {
-        if wo.z <= 0.0 {
-            return None;
-        }
-        let wi = if u_lobe < self.specular_pmf(wo) {
-            self.facets().sample_reflection(wo, u)?
-        } else {
-            warp::cosine_hemisphere(u)
-        };
-        let pdf_solid_angle = self.pdf_solid_angle(wo, wi);
-        (pdf_solid_angle > 0.0 && pdf_solid_angle.is_finite()).then_some(BsdfSample { wi, pdf_solid_angle })
+        self.facets().sample_over_matte(self.specular_pmf(wo), wo, u, u_lobe)
     }
 
     #[inline]
     fn pdf_solid_angle(&self, wo: Vec3, wi: Vec3) -> f32 {
-        let Some(h) = Ggx::half(wo, wi) else { return 0.0 };
-        let specular = self.specular_pmf(wo);
-        specular * self.facets().reflection_pdf(wo, h) + (1.0 - specular) * warp::cosine_hemisphere_pdf(wi.z)
+        self.facets().pdf_over_matte(self.specular_pmf(wo), wo, wi)
     }
 
-    /// As that of [`super::GgxConductor`].
     #[inline]
     fn lobe_solid_angle(&self) -> f32 {
         let [x, y] = self.facets().alpha();

@@ -8,6 +8,7 @@ mod error;
 mod fresnel;
 mod ggx;
 mod lambert;
+mod matte_base;
 mod metallic_roughness;
 mod microfacet;
 mod phong;

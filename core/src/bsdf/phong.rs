@@ -1,7 +1,7 @@
 //! The modified Phong model.
 
 use super::error::check_reflectance;
-use super::{Bsdf, BsdfError, BsdfSample};
+use super::{Bsdf, BsdfError, BsdfSample, matte_base};
 use crate::Rgb;
 use crate::geom::Frame;
 use crate::num::{FRAC_1_PI, PI};
@@ -67,6 +67,13 @@ impl Phong {
         0.5 * wi.distance_squared(Vec3::new(-wo.x, -wo.y, wo.z))
     }
 
+    /// Density of the lobe (sr⁻¹); `None` where nothing is reflected.
+    #[inline]
+    fn lobe_pdf(&self, wo: Vec3, wi: Vec3) -> Option<f32> {
+        let is_above = !(wo.z <= 0.0 || wi.z <= 0.0);
+        is_above.then(|| warp::power_cosine_pdf(Self::one_minus_cos_alpha(wo, wi), self.exponent))
+    }
+
     /// What was checked before: for constants; see [`crate::Scene::baked`].
     ///
     /// * `specular_pmf` – as [`Phong::specular_pmf`] said
@@ -97,26 +104,16 @@ impl Bsdf for Phong {
     /// two reflectances.
     #[inline]
     fn sample(&self, wo: Vec3, u: [f32; 2], u_lobe: f32) -> Option<BsdfSample> {
-        let wi = if u_lobe < self.specular_pmf {
-            let mirror = Vec3::new(-wo.x, -wo.y, wo.z);
-            Frame::from_normal(mirror).to_world(warp::power_cosine(u, self.exponent))
-        } else {
-            warp::cosine_hemisphere(u)
-        };
-        let pdf_solid_angle = self.pdf_solid_angle(wo, wi);
-        (pdf_solid_angle > 0.0 && pdf_solid_angle.is_finite()).then_some(BsdfSample { wi, pdf_solid_angle })
+        let mirror = Vec3::new(-wo.x, -wo.y, wo.z);
+        let lobe = || Some(Frame::from_normal(mirror).to_world(warp::power_cosine(u, self.exponent)));
+        matte_base::sample(self.specular_pmf, u, u_lobe, lobe, |wi| self.lobe_pdf(wo, wi))
     }
 
     #[inline]
     fn pdf_solid_angle(&self, wo: Vec3, wi: Vec3) -> f32 {
-        if wo.z <= 0.0 || wi.z <= 0.0 {
-            return 0.0;
-        }
-        let lobe = warp::power_cosine_pdf(Self::one_minus_cos_alpha(wo, wi), self.exponent);
-        self.specular_pmf * lobe + (1.0 - self.specular_pmf) * warp::cosine_hemisphere_pdf(wi.z)
+        self.lobe_pdf(wo, wi).map_or(0.0, |lobe| matte_base::pdf(self.specular_pmf, lobe, wi))
     }
 
-    /// That over which `cosⁿ α`, put together, is 1: `2π / (n + 1)`.
     #[inline]
     fn lobe_solid_angle(&self) -> f32 {
         2.0 * PI / (self.exponent + 1.0)
@@ -128,6 +125,10 @@ impl Bsdf for Phong {
 
     fn check(&self) -> Result<(), BsdfError> {
         let made = Self::new(self.diffuse, self.specular, self.exponent)?;
-        if made == *self { Ok(()) } else { Err(BsdfError::Derived { field: "specular_pmf" }) }
+        if made.specular_pmf == self.specular_pmf {
+            Ok(())
+        } else {
+            Err(BsdfError::Derived { field: "specular_pmf" })
+        }
     }
 }

@@ -7,7 +7,6 @@ use super::transmittance::{Transmittance, internal_reflectance};
 use super::{Bsdf, BsdfError, BsdfSample};
 use crate::Rgb;
 use crate::num::{self, FRAC_1_PI, PI};
-use crate::warp;
 use glam::Vec3;
 
 /// The largest relative index of refraction; that of diamond in air is 2.4.
@@ -215,26 +214,14 @@ impl Bsdf for RoughPlastic {
     /// Density: the mixture of that of visible facets and of `cos θ / π`.
     #[inline]
     fn sample(&self, wo: Vec3, u: [f32; 2], u_lobe: f32) -> Option<BsdfSample> {
-        if wo.z <= 0.0 {
-            return None;
-        }
-        let wi = if u_lobe < self.specular_pmf(wo) {
-            self.facets.sample_reflection(wo, u)?
-        } else {
-            warp::cosine_hemisphere(u)
-        };
-        let pdf_solid_angle = self.pdf_solid_angle(wo, wi);
-        (pdf_solid_angle > 0.0 && pdf_solid_angle.is_finite()).then_some(BsdfSample { wi, pdf_solid_angle })
+        self.facets.sample_over_matte(self.specular_pmf(wo), wo, u, u_lobe)
     }
 
     #[inline]
     fn pdf_solid_angle(&self, wo: Vec3, wi: Vec3) -> f32 {
-        let Some(h) = Ggx::half(wo, wi) else { return 0.0 };
-        let specular = self.specular_pmf(wo);
-        specular * self.facets.reflection_pdf(wo, h) + (1.0 - specular) * warp::cosine_hemisphere_pdf(wi.z)
+        self.facets.pdf_over_matte(self.specular_pmf(wo), wo, wi)
     }
 
-    /// As that of [`super::GgxConductor`].
     #[inline]
     fn lobe_solid_angle(&self) -> f32 {
         PI * self.alpha() * self.alpha()
@@ -257,11 +244,13 @@ impl Bsdf for RoughPlastic {
         if !(1.0..=MAX_ETA).contains(&self.eta) {
             return Err(BsdfError::RelativeIndex(self.eta));
         }
+        let prepared = self.prepared();
         for (field, ok) in [
             ("the transmittance", self.through.to_numbers().iter().all(|n| n.is_finite())),
             ("the internal reflectance", (0.0..1.0).contains(&self.internal_reflectance)),
             ("the reflectance of a facet", self.facing == dielectric(1.0, self.eta)),
-            ("what the base reflects", self.prepared() == *self),
+            ("what the base reflects", prepared.base == self.base),
+            ("the probability of the coat", prepared.specular_weight == self.specular_weight),
         ] {
             if !ok {
                 return Err(BsdfError::Derived { field });

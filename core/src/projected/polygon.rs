@@ -118,7 +118,8 @@ impl<const N: usize> ProjectedPolygon<N> {
     /// Draws a direction; `None` when rounding leaves none.
     ///
     /// * `u` – two independent uniforms, each in `[0, 1)`
-    #[inline]
+    #[cfg_attr(not(feature = "small"), inline)]
+    #[cfg_attr(feature = "small", inline(never))]
     #[must_use]
     pub fn sample(&self, u: [f32; 2]) -> Option<PolygonSample> {
         let (i, mut area) = self.pick(u[0].max(LOWEST) * self.sectors.total);
