@@ -61,7 +61,7 @@ data() {
 footprints() {
     local extra=$1
     for_target $m4f build --features "$extra" --bin footprint_a
-    for_target $m4f build --profile tiny --features "small,$extra" --bin footprint_b --bin footprint_c
+    for_target $m4f build --profile tiny --features "small,$extra" --bin footprint_b --bin footprint_c --bin footprint_d
 }
 
 footprint() {
@@ -69,7 +69,7 @@ footprint() {
     declare -A stacks
     # The stacks first: the programs without a word to say stay for a look with nm.
     footprints stack
-    for name in a b c; do
+    for name in a b c d; do
         stacks[$name]=$(qemu -kernel "$(elf $name)")
     done
     footprints ''

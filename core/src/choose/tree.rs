@@ -143,7 +143,7 @@ impl<'a> LightTree<'a> {
     /// Importance of the children; of a leaf, its own.
     #[inline]
     fn importances(&self, from: &Receiver, tree: Subtree) -> [f32; 2] {
-        let importance = |node: Subtree| self.nodes[node.from].importance(from);
+        let importance = |node: Subtree| self.nodes.get(node.from).map_or(0.0, |node| node.importance(from));
         match self.children(tree) {
             Some((first, second)) => [importance(first), importance(second)],
             None => [importance(tree), 0.0],
@@ -156,7 +156,7 @@ impl<'a> LightTree<'a> {
         if to <= from + 1 {
             return None;
         }
-        let middle = self.nodes[from].link() as usize;
+        let middle = self.nodes.get(from)?.link() as usize;
         Some((Subtree { from: from + 1, to: middle }, Subtree { from: middle, to }))
     }
 }

@@ -210,7 +210,7 @@ impl<'g, S: Shape, L: Emitter, M: Material, K: Knowledge, const STACK: usize> Ga
     #[inline]
     fn toward(&self, index: usize, pmf: f32, u: [f32; 2], observer: &mut impl Observer) -> Rgb {
         let Self { direct, scene, shading, plan, .. } = self;
-        let light = &scene.lights()[index];
+        let Some(light) = scene.lights().get(index) else { return Rgb::BLACK };
         if plan.light == 0 && !light.is_delta() {
             return Rgb::BLACK;
         }

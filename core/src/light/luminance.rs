@@ -39,12 +39,13 @@ impl LuminanceGrid {
 
     /// The first texel of a cell.
     fn start(&self, axis: usize, cell: usize) -> usize {
-        cell * self.texels[axis] as usize / self.cells[axis] as usize
+        // Neither of them is 0.
+        (cell * self.texels[axis] as usize).checked_div(self.cells[axis] as usize).unwrap_or(0)
     }
 
     /// The cell of a texel: the inverse of [`LuminanceGrid::start`].
     fn cell_of(&self, axis: usize, texel: usize) -> usize {
-        ((texel + 1) * self.cells[axis] as usize - 1) / self.texels[axis] as usize
+        ((texel + 1) * self.cells[axis] as usize - 1).checked_div(self.texels[axis] as usize).unwrap_or(0)
     }
 
     /// The cell of a place in `[0, 1]`.
@@ -105,12 +106,16 @@ impl<'a> LuminanceTable<'a> {
 
     fn row(&self, row: usize) -> &'a [f32] {
         let start = self.grid.rows() + row * self.grid.columns();
-        &self.table[start..start + self.grid.columns()]
+        self.table.get(start..start + self.grid.columns()).unwrap_or_default()
+    }
+
+    fn ends(&self) -> &'a [f32] {
+        self.table.get(..self.grid.rows()).unwrap_or_default()
     }
 
     /// A place of the unit square; `None` when all is black.
     pub(super) fn sample(&self, u: [f32; 2]) -> Option<[f32; 2]> {
-        let (row, v) = draw(&self.table[..self.grid.rows()], u[1])?;
+        let (row, v) = draw(self.ends(), u[1])?;
         let (column, u) = draw(self.row(row), u[0])?;
         let place = |axis, cell, within: f32| {
             let (start, length) = self.grid.reach(axis, cell);
@@ -123,7 +128,7 @@ impl<'a> LuminanceTable<'a> {
     /// Density at a place of the unit square, with respect to its area.
     pub(super) fn pdf(&self, [x, y]: [f32; 2]) -> f32 {
         let (column, row) = (self.grid.cell_at(0, x), self.grid.cell_at(1, y));
-        let pmf = share(&self.table[..self.grid.rows()], row) * share(self.row(row), column);
+        let pmf = share(self.ends(), row) * share(self.row(row), column);
         let ((_, width), (_, height)) = (self.grid.reach(0, column), self.grid.reach(1, row));
         pmf / (width * height)
     }
@@ -132,13 +137,17 @@ impl<'a> LuminanceTable<'a> {
 /// The entry whose share `u` falls into, and where in it, in `[0, 1)`.
 fn draw(ends: &[f32], u: f32) -> Option<(usize, f32)> {
     let index = ends.partition_point(|end| *end <= u);
-    let start = if index == 0 { 0.0 } else { ends[index - 1] };
-    let end = *ends.get(index)?;
+    let (start, end) = (before(ends, index), *ends.get(index)?);
     Some((index, num::clamp_unit((u - start) / (end - start))))
 }
 
 fn share(ends: &[f32], index: usize) -> f32 {
-    ends[index] - if index == 0 { 0.0 } else { ends[index - 1] }
+    ends.get(index).map_or(0.0, |end| end - before(ends, index))
+}
+
+/// Where an entry begins: 0 for the first.
+fn before(ends: &[f32], index: usize) -> f32 {
+    ends.get(index.wrapping_sub(1)).copied().unwrap_or(0.0)
 }
 
 #[cfg(test)]

@@ -98,7 +98,7 @@ impl<const N: usize> Above<N> {
     /// The corner with the index `i` in the receiver's frame (m).
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn point(&self, i: usize) -> DVec3 {
-        self.points[i]
+        entry(&self.points, i)
     }
 }
 
@@ -109,7 +109,12 @@ impl<const N: usize> Outline<N> {
     /// The corners above the horizon and on it, in the plane's coordinates.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn places(&self) -> &[DVec2] {
-        &self.places[..self.len]
+        self.places.get(..self.len).unwrap_or_default()
+    }
+
+    #[cfg_attr(not(feature = "small"), inline(always))]
+    fn place(&self, i: usize) -> DVec2 {
+        entry(&self.places, i)
     }
 
     /// Cross product of the azimuths of two corners, positive when that of index `j` is
@@ -120,27 +125,42 @@ impl<const N: usize> Outline<N> {
     /// and far the polygon.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn azimuth(&self, i: usize, j: usize) -> f64 {
-        self.zenith.dot(cross(self.places[i], self.places[j]))
+        self.zenith.dot(cross(self.place(i), self.place(j)))
     }
 
     /// [`Outline::azimuth`], and how far it may be off.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn azimuth_and_rounding(&self, i: usize, j: usize) -> (f64, f64) {
-        let [x, y, z] = (self.zenith * cross(self.places[i], self.places[j])).to_array();
+        let [x, y, z] = (self.zenith * cross(self.place(i), self.place(j))).to_array();
         (x + y + z, ROUNDING * (x.abs() + y.abs() + z.abs()))
     }
 
     /// The corner with the index `i` in homogeneous coordinates of the plane.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn homogeneous(&self, i: u8) -> Vec3 {
-        self.places[usize::from(i)].as_vec2().extend(1.0)
+        self.place(i.into()).as_vec2().extend(1.0)
     }
 
     /// Twice the area of the triangle between three corners.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn doubled_area(&self, i: usize, j: usize, k: usize) -> f64 {
-        let first = self.places[i];
-        (self.places[j] - first).perp_dot(self.places[k] - first).abs()
+        let first = self.place(i);
+        (self.place(j) - first).perp_dot(self.place(k) - first).abs()
+    }
+}
+
+/// The entry with the index `i`: the last one for what is beyond, where no index is, so that no code is for a
+/// panic.
+#[cfg_attr(not(feature = "small"), inline(always))]
+pub(super) fn entry<T: Copy, const N: usize>(entries: &[T; N], i: usize) -> T {
+    entries[i.min(N - 1)]
+}
+
+/// Sets an entry, if there is one with that index.
+#[cfg_attr(not(feature = "small"), inline(always))]
+pub(super) fn set_entry<T, const N: usize>(entries: &mut [T; N], i: usize, value: T) {
+    if let Some(entry) = entries.get_mut(i) {
+        *entry = value;
     }
 }
 

@@ -123,7 +123,7 @@ impl<const N: usize> ProjectedPolygon<N> {
     #[must_use]
     pub fn sample(&self, u: [f32; 2]) -> Option<PolygonSample> {
         let (i, mut area) = self.pick(u[0].max(LOWEST) * self.sectors.total);
-        let (mut sector, mut whole) = (self.sectors.get(i), self.sectors.areas()[i]);
+        let (mut sector, mut whole) = (self.sectors.get(i), self.sectors.area(i));
         if sector.is_wide() {
             (sector, area, whole) = sector.half_at(area);
         }

@@ -1,7 +1,7 @@
 //! All sectors of a polygon.
 
 use super::chains::{Cut, Layout, Step};
-use super::clip::{Above, Outline};
+use super::clip::{Above, Outline, entry, set_entry};
 use super::lanes::{self, Ends};
 use super::meridian::{Meridian, Places};
 use super::sector::{Sector, WIDE};
@@ -127,12 +127,12 @@ impl<const N: usize> Sectors<N> {
         let scale = 1.0 / num::sqrt_in_double(outer.length_squared());
         let (outer, rise) = (outer * scale, rise * scale);
         for (values, value) in self.outer.iter_mut().zip(outer.as_vec3().to_array()) {
-            values[i] = value;
+            set_entry(values, i, value);
         }
         let kept = if rise > HIGH { HIGH / rise } else { 1.0 };
-        self.rises[i] = (rise * kept) as f32;
+        set_entry(&mut self.rises, i, (rise * kept) as f32);
         let weight = if i == 0 { 1.0 } else { (scale * unit) as f32 };
-        self.sources[i] = Source { step: *step, shares, weight, kept: kept as f32 };
+        set_entry(&mut self.sources, i, Source { step: *step, shares, weight, kept: kept as f32 });
         Reached { corner: step.corner.into(), outer, scale }
     }
 
@@ -167,7 +167,8 @@ impl<const N: usize> Sectors<N> {
             let sector = self.get(i);
             if sector.is_wide() {
                 // Without width, the ends may be opposite.
-                self.areas[i] = if self.poles[2][i] > 0.0 { sector.area_of_halves() } else { 0.0 };
+                let area = if entry(&self.poles[2], i) > 0.0 { sector.area_of_halves() } else { 0.0 };
+                set_entry(&mut self.areas, i, area);
             }
         }
     }
@@ -177,23 +178,29 @@ impl<const N: usize> Sectors<N> {
         Ends { outer: self.outer.each_ref().map(|o| Lane::load(o, i)), rise: Lane::load(&self.rises, i) }
     }
 
+    /// The area with the index `i` (sr).
+    #[cfg_attr(not(feature = "small"), inline(always))]
+    pub(super) fn area(&self, i: usize) -> f32 {
+        entry(&self.areas, i)
+    }
+
     /// The areas (sr).
     #[inline]
     pub(super) fn areas(&self) -> &[f32] {
-        &self.areas[..self.len]
+        self.areas.get(..self.len).unwrap_or_default()
     }
 
     /// The side with the index `i`.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn meridian(&self, i: usize) -> Meridian {
-        let [x, y, z] = self.outer.each_ref().map(|o| o[i]);
-        Meridian { outer: Vec3::new(x, y, z), rise: self.rises[i] }
+        let [x, y, z] = self.outer.each_ref().map(|o| entry(o, i));
+        Meridian { outer: Vec3::new(x, y, z), rise: entry(&self.rises, i) }
     }
 
     /// Where the side with the index `i` is.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn places(&self, i: usize) -> Places {
-        let Source { step, shares: [a, b], weight, kept } = self.sources[i];
+        let Source { step, shares: [a, b], weight, kept } = entry(&self.sources, i);
         let here = self.outline.homogeneous(step.corner);
         let [first, last] = step.edge.map(|i| self.outline.homogeneous(i));
         let there = first * a + last * b;
@@ -213,7 +220,7 @@ impl<const N: usize> Sectors<N> {
     /// The sector with the index `i`.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn get(&self, i: usize) -> Sector {
-        let pole = self.poles.each_ref().map(|p| p[i]).into();
+        let pole = self.poles.each_ref().map(|p| entry(p, i)).into();
         Sector::new(self.meridian(i), self.meridian(i + 1), pole, self.to_zenith)
     }
 }

@@ -202,7 +202,7 @@ impl SphericalRectangle {
     #[cfg_attr(not(feature = "small"), inline(always))]
     #[must_use]
     pub fn new(corner: [f32; 2], size: [f32; 2], height: f32) -> Option<Self> {
-        let [first, second] = [0, 1].map(|i| Axis::new(corner[i], size[i]));
+        let (first, second) = (Axis::new(corner[0], size[0]), Axis::new(corner[1], size[1]));
         let reach = num::larger(num::larger(first.high(), second.high()), height);
         if !(size[0] > 0.0 && size[1] > 0.0 && height > 0.0 && reach < f32::INFINITY) {
             return None;

@@ -176,13 +176,25 @@ impl Sweep {
         (!end.abrupt).then_some(end)
     }
 
+    /// The density at both ends of an interval.
+    #[inline]
+    fn density_at(&self, i: usize) -> [f32; 2] {
+        match self.density.get(i..i + 2) {
+            Some(&[a, b]) => [a, b],
+            _ => [0.0; 2],
+        }
+    }
+
     /// Share of an interval.
     #[inline]
     fn mass(&self, i: usize) -> f32 {
         match i {
             0 => self.outer[0],
             _ if i == INTERVALS - 1 => self.outer[1],
-            _ => 0.5 * (self.density[i] + self.density[i + 1]),
+            _ => {
+                let [a, b] = self.density_at(i);
+                0.5 * (a + b)
+            }
         }
     }
 
@@ -201,7 +213,7 @@ impl Sweep {
             Some(end) => end.sample((1.0 - left / self.mass(i)).max(0.0)),
             None => {
                 // Root of a t + (b − a) t² / 2 = left, in the form that does not cancel.
-                let (a, b) = (self.density[i], self.density[i + 1]);
+                let [a, b] = self.density_at(i);
                 let root = a + num::sqrt(a * a + 2.0 * (b - a) * left);
                 let t = if root > 0.0 { (2.0 * left / root).min(1.0) } else { 0.0 };
                 if low { t } else { 1.0 - t }
@@ -226,7 +238,10 @@ impl Sweep {
         let (i, [before, after]) = self.find(turn);
         let density = match self.end(i) {
             Some(end) => self.mass(i) * end.density(if i == 0 { before } else { after }),
-            None => self.density[i] * after + self.density[i + 1] * before,
+            None => {
+                let [a, b] = self.density_at(i);
+                a * after + b * before
+            }
         };
         density / (STEP * self.half)
     }
@@ -235,7 +250,7 @@ impl Sweep {
     pub(crate) fn share(&self, turn: FromEnd) -> f32 {
         let (i, [before, after]) = self.find(turn);
         let below: f32 = (0..i).map(|j| self.mass(j)).sum();
-        let (a, b) = (self.density[i], self.density[i + 1]);
+        let [a, b] = self.density_at(i);
         below
             + match self.end(i) {
                 Some(end) if i == 0 => self.mass(i) * end.share(before),

@@ -133,7 +133,7 @@ impl<'a> EnvironmentMap<'a> {
     #[inline]
     fn lookup(&self, place: &Place) -> Rgb {
         let corners = self.corners(place.x, place.y);
-        let channel = |c: fn(&Rgb) -> f32| bilinear([0, 1, 2, 3].map(|i| c(&corners[i])), place.s, place.t);
+        let channel = |c: fn(&Rgb) -> f32| bilinear(corners.each_ref().map(c), place.s, place.t);
         Rgb::new(channel(|t| t.r), channel(|t| t.g), channel(|t| t.b))
     }
 }

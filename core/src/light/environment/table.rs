@@ -228,7 +228,7 @@ impl EnvironmentTable<'_> {
             let index = first + at[1] as usize * size[0] as usize + at[0] as usize;
             if index < self.lobes.len() {
                 probability *= share;
-                scale = probability / self.masses[index];
+                scale = probability / self.masses.get(index)?;
             }
         }
         if levels.top > 0 {
@@ -260,7 +260,8 @@ impl EnvironmentTable<'_> {
             let children = self.children(size, first, at.map(|c| c >> 1), normal);
             probability *= children.probability(at.map(|c| c & 1));
             // A node without mass is never chosen.
-            scale = if probability > 0.0 { probability / self.masses[index] } else { 0.0 };
+            let mass = self.masses.get(index).filter(|_| probability > 0.0);
+            scale = mass.map_or(0.0, |mass| probability / mass);
         }
         scale
     }

@@ -8,10 +8,10 @@ use halflight_firmware::machine::entry;
 #[entry]
 fn main() -> ! {
     #[cfg(feature = "stack")]
-    halflight_firmware::machine::print_stack_of(everything::run);
+    halflight_firmware::machine::print_stack_of(everything::run_by_area);
     #[cfg(not(feature = "stack"))]
     loop {
-        everything::run();
+        everything::run_by_area();
     }
 }
 

@@ -1,0 +1,18 @@
+//! The size of (d), see the library; with feature `stack` its stack is printed.
+#![no_std]
+#![no_main]
+
+use halflight_firmware::footprint::everything;
+use halflight_firmware::machine::entry;
+
+#[entry]
+fn main() -> ! {
+    #[cfg(feature = "stack")]
+    halflight_firmware::machine::print_stack_of(everything::run_any);
+    #[cfg(not(feature = "stack"))]
+    loop {
+        everything::run_any();
+    }
+}
+
+halflight_firmware::panics_end!();
