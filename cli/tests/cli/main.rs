@@ -1,5 +1,6 @@
 //! The program from end to end: what is typed, what is printed, what lies in the folder afterwards.
 
+mod auto;
 mod bad_input;
 mod batch;
 mod bits;
