@@ -34,6 +34,7 @@ pub use observer::Observer;
 pub use occlusion::Occlusion;
 pub use path::Path;
 pub use probe::{Irradiance, Probe};
+pub use refine::Step;
 pub use stats::{Pixel, PixelStats};
 pub use target::Target;
 

@@ -9,6 +9,34 @@ use crate::material::Material;
 use crate::sequence::Sequence;
 use crate::shape::Shape;
 
+/// A step of a tile: the blocks whose samples are doubled, and how far that has come.
+///
+/// It can be taken in parts, at any times: what the tile becomes is the same.
+#[derive(Debug, Clone)]
+pub struct Step {
+    chosen: [bool; BLOCKS],
+    at: usize,
+}
+
+impl Step {
+    /// The next step of a tile.
+    #[must_use]
+    pub fn next(tile: &AdaptiveTile, target: &Target) -> Self {
+        Self { chosen: tile.next(target), at: 0 }
+    }
+
+    /// True when nothing is left to do: of a new step, that the tile is good enough.
+    #[must_use]
+    pub fn is_over(&self) -> bool {
+        self.block().is_none()
+    }
+
+    /// The next block.
+    fn block(&self) -> Option<usize> {
+        (self.at..BLOCKS).find(|&i| self.chosen[i])
+    }
+}
+
 impl<S: Shape, L: Emitter, M: Material, E: Estimator, Q: Sequence + Clone> Job<'_, S, L, M, E, Q> {
     /// Refines a tile by a step: where it is worth most, the samples are doubled.
     ///
@@ -24,15 +52,35 @@ impl<S: Shape, L: Emitter, M: Material, E: Estimator, Q: Sequence + Clone> Job<'
         pixels: &mut [P],
         go_on: impl Fn() -> bool,
     ) -> u64 {
-        let chosen = tile.next(target);
-        if tile.fewest_samples() == 0 {
+        let mut step = Step::next(tile, target);
+        let taken = self.take(&mut step, tile, target, pixels, go_on);
+        if !step.is_over() {
+            tile.look_for_hidden(pixels, &step.chosen);
+        }
+        taken
+    }
+
+    /// Takes a step of a tile, or a part of it.
+    ///
+    /// * `target` – that of the step
+    /// * `pixels` – of the tile, row by row from its top; as many as the tile has
+    /// * `go_on` – asked before each block; when it says no, the rest of the step is left for later
+    ///
+    /// Returns how many samples were taken.
+    pub fn take<P: Pixel>(
+        &self,
+        step: &mut Step,
+        tile: &mut AdaptiveTile,
+        target: &Target,
+        pixels: &mut [P],
+        go_on: impl Fn() -> bool,
+    ) -> u64 {
+        if step.at == 0 && tile.fewest_samples() == 0 {
             self.begin(tile);
         }
         let mut taken = 0;
-        for index in (0..BLOCKS).filter(|&i| chosen[i]) {
-            if !go_on() {
-                break;
-            }
+        while let Some(index) = step.block().filter(|_| go_on()) {
+            step.at = index + 1;
             let Some((part, samples, known)) = tile.block(index) else { continue };
             let end = samples.saturating_mul(2).clamp(1, target.most()).max(samples);
             let observe = |ray: &Ray, reach, sequence: &mut Q, pixel: &mut P| {
@@ -41,7 +89,9 @@ impl<S: Shape, L: Emitter, M: Material, E: Estimator, Q: Sequence + Clone> Job<'
             let sums = self.render_part(tile.rect(), part, samples..end, pixels, observe);
             taken += tile.note_samples(index, end, &sums);
         }
-        tile.look_for_hidden(pixels, &chosen);
+        if step.is_over() {
+            tile.look_for_hidden(pixels, &step.chosen);
+        }
         taken
     }
 
