@@ -20,7 +20,7 @@ build() {
     local folder=$1
     shift
     # A variable of the target: build scripts and macros of this machine are not touched.
-    CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS='-Ctarget-feature=+simd128 -Cllvm-args=-inline-threshold=80' \
+    CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS='-Ctarget-feature=+simd128' \
         scripts/target-env.sh wasm32-unknown-unknown \
         cargo build --locked --quiet --package halflight-wasm --lib --profile www "$@" \
         --target wasm32-unknown-unknown --target-dir "$target_dir/wasm"
@@ -29,7 +29,7 @@ build() {
     bytes=$(gzip -9c "$folder/halflight_bg.wasm" | wc -c)
     echo "$folder: module of $((bytes / 1024)) KiB, gzipped"
 }
-build "$out" --no-default-features
+build "$out" --no-default-features --features small
 if [ "$bytes" -gt $((300 * 1024)) ]; then
     echo "build-www: the page's module must not be larger than 300 KiB" >&2
     exit 1

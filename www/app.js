@@ -2,17 +2,16 @@
 
 import { Orbit } from './camera.js';
 import { Screen } from './canvas.js';
+import { layout } from './layout.js';
 import { legend, rendered, showLegend } from './display.js';
 import { Renderer } from './engine/renderer.js';
 import { Overlay } from './overlay.js';
-import { CHOICES, encode } from './state.js';
+import { CHOICES, encode, lightEdit, lookEdit } from './state.js';
 import { aimed } from './ui/light.js';
 import { chart } from './ui/chart.js';
 
 /** Samples of a probe: at once, and when the picture is still. */
 const PROBE = [64, 4096];
-/** Most columns of a picture that fits the page. */
-const COLUMNS = 960;
 
 const byId = (id) => document.getElementById(id);
 
@@ -41,7 +40,7 @@ export class App {
     this.overlay = new Overlay(byId('overlay'), byId('handle'));
     this.renderer = new Renderer(pool);
     this.renderer.target = state.target / 100;
-    this.renderer.equal = state.equal;
+    Object.assign(this.renderer, { equal: state.equal, adaptive: state.adaptive });
     this.renderer.prepare = () => this.#flush();
     const sides = () => this.renderer.films.length;
     this.renderer.addEventListener('tile', ({ detail: { film, side, tile } }) => this.screen.tile(film, side, sides(), tile));
@@ -124,24 +123,14 @@ export class App {
 
   /** Everything that the state changes of a scene. */
   #all(side) {
-    const edits = Object.keys(this.state.lights).map((index) => this.#lightEdit(Number(index)));
-    if (this.state.camera) edits.unshift(this.#lookEdit());
+    const edits = Object.entries(this.state.lights).map(([index, light]) => lightEdit(Number(index), light));
+    if (this.state.camera) edits.unshift(lookEdit(this.state.camera));
     return [...edits, ['settle'], ...this.#choices(side)];
   }
 
   #choices(side) {
     const chosen = CHOICES.map(({ name }) => ['choose', name, this.state.sides[side][name]]);
     return [...chosen, ['choose', 'seed', String(this.state.seed)], ['choose', 'show', rendered(this.state.show)]];
-  }
-
-  #lookEdit() {
-    const { origin, target, up, halfWidth } = this.state.camera;
-    return ['look', Float32Array.from(origin), Float32Array.from(target), Float32Array.from(up), halfWidth];
-  }
-
-  #lightEdit(index) {
-    const { kind, position, direction, size, strength } = this.state.lights[index];
-    return ['light', index, kind, ...[position, direction, size, strength].map((v) => Float32Array.from(v))];
   }
 
   // Changes
@@ -161,6 +150,7 @@ export class App {
       const sides = Array.from({ length: this.sides }, (_, side) => side);
       const answers = await Promise.all(sides.map((side) => this.#pool.all({ type: 'change', side, edits })));
       this.lights = answers[0].lights;
+      this.facts.lights = Math.max(this.facts.lights, this.lights.filter(({ kind }) => kind !== 'none').length);
       this.say('');
     } catch (error) {
       this.say(error.message, true);
@@ -172,7 +162,7 @@ export class App {
   cameraMoved() {
     this.state.camera = this.orbit.save();
     this.draw();
-    this.#send('look', this.#lookEdit());
+    this.#send('look', lookEdit(this.state.camera));
     this.keep();
   }
 
@@ -198,6 +188,7 @@ export class App {
   currentLight() {
     const { light, lights } = this.state;
     const shown = this.lights[light];
+    if (!lights[light] && !shown) return undefined;
     const list = ({ kind, position, direction, size, strength }) => ({ kind, position: [...position],
       direction: [...direction], size: [...size], strength: [...strength] });
     return list(lights[light] ?? shown);
@@ -207,14 +198,23 @@ export class App {
     const index = this.state.light;
     this.state.lights[index] = light;
     this.#lightsMoved = true;
-    this.#send(`light ${index}`, this.#lightEdit(index));
+    this.#send(`light ${index}`, lightEdit(index, light));
     this.keep();
+  }
+
+  /** Adds a light after the last, and chooses it. */
+  async addLight(index, light) {
+    this.state.light = index;
+    this.setLight(light);
+    await this.#flush();
+    this.panels.light.show();
+    this.panels.sampling.show();
   }
 
   moveLight(position) {
     const light = this.currentLight();
-    const flat = light.kind === 'rectangle' || light.kind === 'disk';
-    const direction = flat && this.state.aim ? aimed(light, position, this.orbit.target) : light.direction;
+    const isAimed = ['rectangle', 'disk', 'spot'].includes(light.kind);
+    const direction = isAimed && this.state.aim ? aimed(light, position, this.orbit.target) : light.direction;
     this.setLight({ ...light, position, direction });
   }
 
@@ -281,6 +281,12 @@ export class App {
     return this.#apply();
   }
 
+  setAdaptive(adaptive) {
+    this.state.adaptive = this.renderer.adaptive = adaptive;
+    this.keep();
+    this.renderer.restart(...this.size, this.sides);
+  }
+
   setEqual(equal) {
     this.state.equal = equal;
     this.renderer.equal = equal;
@@ -333,26 +339,12 @@ export class App {
     this.panels.status.show();
   }
 
-  #columns(css) {
-    if (this.state.width > 0) return this.state.width;
-    return Math.max(160, Math.min(COLUMNS, Math.round(css * Math.min(devicePixelRatio, 2))));
-  }
-
   /** Puts the picture into its frame; true when its pixels have changed. */
   #resize() {
-    const frame = byId('frame');
-    const aspect = this.facts.width / this.facts.height;
-    if (matchMedia('(max-width: 760px)').matches) frame.style.height = `${Math.min(frame.clientWidth / aspect, innerHeight * 0.5)}px`;
-    else frame.style.height = '';
-    const [w, h] = [frame.clientWidth, frame.clientHeight];
-    const width = Math.max(1, Math.floor(Math.min(w, h * aspect)));
-    const height = Math.max(1, Math.round(width / aspect));
-    Object.assign(this.canvas.style, { width: `${width}px`, height: `${height}px` });
-    const [left, top] = [(w - width) / 2, (h - height) / 2];
-    this.overlay.place(left, top, width, height);
-    this.box = { left, top, width, height };
-    const columns = this.#columns(width);
-    const rows = Math.max(1, Math.round(columns / aspect));
+    const { box, columns, rows } = layout(byId('frame'), this.facts.width / this.facts.height, this.state.width);
+    Object.assign(this.canvas.style, { width: `${box.width}px`, height: `${box.height}px` });
+    this.overlay.place(box);
+    this.box = box;
     const changed = columns !== this.canvas.width || rows !== this.canvas.height;
     this.screen.resize(columns, rows);
     return changed;
@@ -371,6 +363,8 @@ export class App {
 
   #passed() {
     this.panels.status.show();
+    // The colours are relative to the most samples that a pixel has.
+    if (this.state.show === 'samples') this.screen.all(this.renderer.films);
     if (this.state.compare) chart(byId('chart'), this.renderer.films.map((film) => film.history));
   }
 

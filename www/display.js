@@ -52,7 +52,7 @@ const SCALAR = {
   samples: {
     colours: HEAT,
     labels: ['1', '', 'most'],
-    value: (floats, words, i, most) => words[i + 6] / Math.max(most, 1),
+    value: (floats, words, i, most) => Math.log2(Math.max(words[i + 6], 1)) / Math.log2(Math.max(most, 2)),
   },
   error: {
     colours: HEAT,

@@ -90,8 +90,15 @@ function actions(app) {
   document.addEventListener('visibilitychange', () => app.renderer.pause(app.renderer.paused));
 }
 
+/** A module that is valid only where 128-bit SIMD is: one function, `i32.const 0; i8x16.splat; drop`. */
+const SIMD = Uint8Array.of(0, 97, 115, 109, 1, 0, 0, 0, 1, 4, 1, 96, 0, 0, 3, 2, 1, 0, 10, 9, 1, 7, 0, 65, 0, 253, 15, 26, 11);
+
 async function start() {
   const begun = performance.now();
+  if (!globalThis.WebAssembly) throw new Error('it has no WebAssembly, or does not let pages use it.');
+  if (!WebAssembly.validate(SIMD)) {
+    throw new Error('it has no SIMD in WebAssembly. Those that do: Chrome and Edge from 91, Firefox from 89, Safari from 16.4.');
+  }
   const module = await compiled('./halflight_bg.wasm');
   const arrived = performance.now();
   const [pool] = await Promise.all([Pool.start(module, workers()), init({ module_or_path: module })]);

@@ -19,7 +19,7 @@ export class Overlay {
   }
 
   /** Lies over the picture: its place and size in the frame (CSS pixels). */
-  place(left, top, width, height) {
+  place({ left, top, width, height }) {
     Object.assign(this.#svg.style, { left: `${left}px`, top: `${top}px`, width: `${width}px`, height: `${height}px` });
     this.#svg.setAttribute('viewBox', `0 0 ${width} ${height}`);
     this.#size = [width, height];
@@ -49,7 +49,7 @@ export class Overlay {
   }
 
   #put(orbit, light) {
-    const placed = light?.editable && !['directional', 'constant'].includes(light.kind);
+    const placed = light?.editable && !['directional', 'distant', 'constant', 'none'].includes(light.kind);
     this.#handle.hidden = !placed;
     if (!placed) return;
     const [width, height] = this.#size;

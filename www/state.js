@@ -6,7 +6,7 @@ export const CHOICES = [
   { name: 'lights', label: 'Surface', values: { auto: 'auto', area: 'area', 'solid-angle': 'solid angle', projected: 'projected' } },
   { name: 'choose', label: 'Choice', values: { auto: 'auto', all: 'all', uniform: 'uniform', power: 'power', tree: 'tree' }, needs: 'many' },
   { name: 'environment', label: 'Environment', values: { auto: 'auto', cosine: 'cosine', luminance: 'luminance', compensated: 'compensated', product: 'product' }, needs: 'environment' },
-  { name: 'sequence', label: 'Sequence', values: { sobol: 'Sobol', random: 'random' } },
+  { name: 'sequence', label: 'Sequence', values: { auto: 'auto', zsobol: 'Sobol, shared', sobol: 'Sobol', random: 'random' } },
 ];
 
 const AUTO = Object.fromEntries(CHOICES.map(({ name, values }) => [name, Object.keys(values)[0]]));
@@ -22,6 +22,7 @@ export const initial = () => ({
   width: 0,
   target: 1,
   seed: 0,
+  adaptive: true,
   compare: false,
   equal: 'samples',
   split: 0.5,
@@ -55,6 +56,7 @@ const VALID = {
   width: (v) => Number.isInteger(v) && v >= 0 && v <= 4096,
   target: (v) => isNumber(v) && v > 0,
   seed: (v) => Number.isInteger(v) && v >= 0,
+  adaptive: (v) => typeof v === 'boolean',
   compare: (v) => typeof v === 'boolean',
   equal: (v) => v === 'samples' || v === 'time',
   split: (v) => isNumber(v) && v >= 0 && v <= 1,
@@ -75,4 +77,14 @@ export function decode(text) {
     return initial();
   }
   return state;
+}
+
+/** The camera of a state as a change of a scene, see `change` in engine/core.js. */
+export function lookEdit({ origin, target, up, halfWidth }) {
+  return ['look', Float32Array.from(origin), Float32Array.from(target), Float32Array.from(up), halfWidth];
+}
+
+/** A light of a state, likewise. */
+export function lightEdit(index, { kind, position, direction, size, strength }) {
+  return ['light', index, kind, ...[position, direction, size, strength].map((v) => Float32Array.from(v))];
 }

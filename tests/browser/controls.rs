@@ -34,7 +34,9 @@ fn dragging_the_light_moves_the_shadow() -> Res<()> {
 fn every_kind_of_light_can_be_chosen_and_lights_the_scene() -> Res<()> {
     with_page("kinds of light", |page| {
         page.open("", 1)?;
-        for kind in ["disk", "sphere", "cylinder", "point", "directional", "constant", "rectangle"] {
+        for kind in
+            ["disk", "sphere", "cylinder", "point", "spot", "directional", "distant", "constant", "rectangle"]
+        {
             page.select("Kind", kind)?;
             page.wait(&format!(
                 "halflight.app.lights[0].kind == '{kind}' && !halflight.app.renderer.moving"
@@ -44,6 +46,61 @@ fn every_kind_of_light_can_be_chosen_and_lights_the_scene() -> Res<()> {
                 .number("halflight.app.renderer.films[0].linear().reduce((a, b) => a + b) / (48 * 32 * 3)")?;
             assert!(mean > 0.01 && mean < 100.0, "{kind}: {mean}");
         }
+        Ok(())
+    })
+}
+
+#[test]
+fn lights_are_added_and_taken_away() -> Res<()> {
+    with_page("adding lights", |page| {
+        page.open("", 1)?;
+        let light = |samples: u32| -> Res<f64> {
+            page.render(48, samples)?;
+            page.number("halflight.app.renderer.films[0].linear().reduce((a, b) => a + b)")
+        };
+        let one = light(4)?;
+        page.run("document.querySelector('#light .add').click()")?;
+        page.wait("halflight.app.lights.length == 2 && !halflight.app.renderer.moving")?;
+        let two = light(4)?;
+        assert!(two > 1.02 * one, "{two} with two lights, {one} with one");
+        let hash = page.run("return halflight.app.link().split('#')[1]")?;
+        page.open(&format!("#{}", hash.as_str().unwrap_or_default()), 1)?;
+        assert_eq!(light(4)?, two, "a link restores a light that was added");
+        page.select("Kind", "none")?;
+        page.wait("halflight.app.lights[1].kind == 'none' && !halflight.app.renderer.moving")?;
+        assert!((light(4)? / one - 1.0).abs() < 1e-3);
+        page.select("Which", "0")?;
+        page.select("Kind", "none")?;
+        page.wait("halflight.app.lights[0].kind == 'none' && !halflight.app.renderer.moving")?;
+        assert_eq!(light(4)?, 0.0, "without a light it is dark");
+        Ok(())
+    })
+}
+
+#[test]
+fn mouse_wheel_and_fingers_move_the_camera() -> Res<()> {
+    with_page("moving the camera", |page| {
+        page.open("", 1)?;
+        page.run("halflight.app.setWidth(160)")?;
+        let origin = || -> Res<Vec<f64>> {
+            Ok(serde_json::from_value(page.run("return halflight.app.orbit.origin")?)?)
+        };
+        let target = "JSON.stringify(halflight.app.orbit.target)";
+        let distance = || page.number("halflight.app.orbit.distance");
+        let [x, y] = page.middle("#canvas")?;
+        let (start, at, from) = (origin()?, page.run(&format!("return {target}"))?, distance()?);
+        page.drag([x, y], [x + 120, y])?;
+        assert!(origin()? != start, "the mouse turns");
+        assert_eq!(page.run(&format!("return {target}"))?, at, "around what is looked at");
+        page.wheel([x, y], -100)?;
+        page.wait(&format!("halflight.app.orbit.distance < {} ", 0.95 * from))?;
+        let before = (distance()?, page.run(&format!("return {target}"))?);
+        page.touch(&[[x - 40, y], [x + 40, y]], &[[x - 90, y + 30], [x + 90, y + 30]])?;
+        page.wait(&format!("halflight.app.orbit.distance < {}", 0.7 * before.0))?;
+        assert!(page.run(&format!("return {target}"))? != before.1, "two fingers move sideways too");
+        let (turned, near) = (origin()?, distance()?);
+        page.touch(&[[x, y]], &[[x + 60, y + 20]])?;
+        assert!(origin()? != turned && (distance()? / near - 1.0).abs() < 1e-9, "one finger turns");
         Ok(())
     })
 }

@@ -167,6 +167,44 @@ impl Browser {
         self.in_session("POST", "/actions", &json!({ "actions": [source] })).map(drop)
     }
 
+    /// Drops a file in the middle of the window.
+    pub(crate) fn drop_file(&self, file: &Path) -> Res<()> {
+        let data = json!({ "items": [], "files": [file], "dragOperationsMask": 1 });
+        for kind in ["dragEnter", "dragOver", "drop"] {
+            let event = json!({ "type": kind, "x": 300, "y": 300, "data": data });
+            self.cdp("Input.dispatchDragEvent", &event)?;
+        }
+        Ok(())
+    }
+
+    /// Moves fingers on the window, from places to places.
+    pub(crate) fn touch(&self, from: &[[i64; 2]], to: &[[i64; 2]]) -> Res<()> {
+        let points = |at: &[[i64; 2]]| -> Vec<_> {
+            let finger = |(id, [x, y]): (usize, &[i64; 2])| json!({ "x": x, "y": y, "id": id });
+            at.iter().enumerate().map(finger).collect()
+        };
+        let mut steps = vec![("touchStart", points(from))];
+        for k in 1..=5 {
+            let between: Vec<_> = from
+                .iter()
+                .zip(to)
+                .map(|(a, b)| [0, 1].map(|i: usize| a[i] + (b[i] - a[i]) * k / 5))
+                .collect();
+            steps.push(("touchMove", points(&between)));
+        }
+        steps.push(("touchEnd", Vec::new()));
+        for (kind, points) in steps {
+            self.cdp("Input.dispatchTouchEvent", &json!({ "type": kind, "touchPoints": points }))?;
+        }
+        Ok(())
+    }
+
+    /// Turns the wheel at a place of the window.
+    pub(crate) fn wheel(&self, [x, y]: [i64; 2], by: i64) -> Res<()> {
+        let event = json!({ "type": "mouseWheel", "x": x, "y": y, "deltaX": 0, "deltaY": by });
+        self.cdp("Input.dispatchMouseEvent", &event).map(drop)
+    }
+
     /// Gives files to the file field.
     pub(crate) fn choose_files(&self, field: &str, files: &[PathBuf]) -> Res<()> {
         let using = json!({ "using": "css selector", "value": field });

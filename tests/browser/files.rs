@@ -22,7 +22,7 @@ fn a_scene_with_its_files_is_shown_and_a_broken_one_is_explained() -> Res<()> {
         page.choose_files("#files", &files)?;
         page.wait("halflight.app.facts.name == 'mine'")?;
         page.render(60, 4)?;
-        let line = format!("{} --width 60 --spp 4 --sequence sobol", folder.join("mine.xml").display());
+        let line = format!("{} --width 60 --spp 4", folder.join("mine.xml").display());
         assert!(page.pixels()? == rendered(page.folder.path(), &line)?);
 
         let broken = page.folder.path().join("broken.xml");
@@ -37,6 +37,30 @@ fn a_scene_with_its_files_is_shown_and_a_broken_one_is_explained() -> Res<()> {
         fs::write(&text, "no scene")?;
         page.choose_files("#files", &[text])?;
         page.wait("document.getElementById('message').textContent.includes('notes.txt')")
+    })
+}
+
+#[test]
+fn files_can_be_dropped_on_the_page() -> Res<()> {
+    with_page("dropping files", |page| {
+        page.open("", 1)?;
+        let folder = page.folder.path();
+        let (good, broken) = (folder.join("lamp.xml"), folder.join("broken.xml"));
+        fs::write(
+            &good,
+            "<scene version=\"3.0.0\"><shape type=\"sphere\"/>\
+             <emitter type=\"point\"><point name=\"position\" x=\"0\" y=\"3\" z=\"4\"/></emitter></scene>",
+        )?;
+        fs::write(&broken, "<scene version=\"3.0.0\">\n<shape></scene>")?;
+        page.drop_file(&good)?;
+        page.wait("halflight.app.facts.name == 'lamp'")?;
+        page.render(48, 2)?;
+        page.drop_file(&broken)?;
+        page.wait("document.getElementById('message').classList.contains('bad')")?;
+        assert!(page.text("message")?.contains("broken.xml:2: "), "{}", page.text("message")?);
+        assert_eq!(page.run("return document.getElementById('drop').hidden")?, true);
+        // What was there before is still shown.
+        page.render(48, 3)
     })
 }
 

@@ -1,15 +1,16 @@
 //! Choices by the names that the command line gives them.
 
+use crate::estimator::Shown;
 use halflight::build::{Description, FEW_LIGHTS, SceneBuffers};
 use halflight::choose::LightChoice;
 use halflight::estimate::{Arrival, Direct, Heuristic, Occlusion, Technique};
 use halflight::light::{EnvironmentDensity, SurfaceDensity};
-use halflight::sequence::{AnySequence, Random, Sobol};
+use halflight::sequence::{AnySequence, Random, Sobol, ZSobol};
 use std::fmt;
 
 /// What a picture shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Shown {
+enum Show {
     /// Radiance.
     Radiance,
     /// How much of the light arrives.
@@ -18,26 +19,21 @@ pub(crate) enum Shown {
     Occlusion,
 }
 
-/// An estimator for a scene.
-pub(crate) enum Estimator<'a> {
-    Direct(Direct<'a>),
-    Arrival(Arrival<'a>),
-    Occlusion(Occlusion),
-}
-
 /// Everything that can be chosen; `None` is `auto`.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Choices {
-    pub(crate) shown: Shown,
+    show: Show,
     technique: Option<Technique>,
     heuristic: Heuristic,
     surface: SurfaceDensity,
     choose: Option<Choose>,
     environment: Option<EnvironmentDensity>,
-    random: bool,
+    sequence: Draws,
     light_samples: Option<u32>,
     bsdf_samples: Option<u32>,
     seed: u32,
+    /// How many samples a pixel is meant to get at most: neighbours share a sequence by that.
+    samples: u32,
 }
 
 /// Which light a sample goes to.
@@ -47,6 +43,14 @@ enum Choose {
     Uniform,
     Power,
     Tree,
+}
+
+/// Where the uniforms come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Draws {
+    Random,
+    Sobol,
+    ZSobol,
 }
 
 /// A choice that there is not.
@@ -71,16 +75,17 @@ impl std::error::Error for UnknownChoice {}
 impl Default for Choices {
     fn default() -> Self {
         Self {
-            shown: Shown::Radiance,
+            show: Show::Radiance,
             technique: None,
             heuristic: Heuristic::default(),
             surface: SurfaceDensity::Auto,
             choose: None,
             environment: None,
-            random: false,
+            sequence: Draws::ZSobol,
             light_samples: None,
             bsdf_samples: None,
             seed: 0,
+            samples: 1 << 16,
         }
     }
 }
@@ -93,15 +98,16 @@ impl Choices {
     pub(crate) fn set(&mut self, name: &str, value: &str) -> Result<(), UnknownChoice> {
         let unknown = || UnknownChoice { name: name.to_owned(), value: value.to_owned() };
         let known = match name {
-            "show" => shown(value).map(|v| self.shown = v),
+            "show" => show(value).map(|v| self.show = v),
             "technique" => technique(value, self.heuristic).map(|v| self.technique = v),
             "heuristic" => heuristic(value).map(|v| self.weigh_by(v)),
             "lights" => surface(value).map(|v| self.surface = v),
             "choose" => choose(value).map(|v| self.choose = v),
             "environment" => environment(value).map(|v| self.environment = v),
-            "sequence" => sequence(value).map(|v| self.random = v),
+            "sequence" => sequence(value).map(|v| self.sequence = v),
             "light-samples" => count(value).map(|v| self.light_samples = v),
             "bsdf-samples" => count(value).map(|v| self.bsdf_samples = v),
+            "samples" => value.parse().ok().filter(|n| *n > 0).map(|v| self.samples = v),
             "seed" => value.parse().ok().map(|v| self.seed = v),
             _ => None,
         };
@@ -136,15 +142,15 @@ impl Choices {
         description: &Description,
         buffers: &'a SceneBuffers,
         lights: usize,
-    ) -> Estimator<'a> {
+    ) -> Shown<'a> {
         let choice = self.light_choice(buffers, lights);
         let author = description.integrator;
         let samples = |own: Option<u32>, author: Option<u32>| own.or(author).unwrap_or(1).max(1);
         let light_samples = samples(self.light_samples, author.light_samples);
-        match self.shown {
-            Shown::Occlusion => Estimator::Occlusion(Occlusion::default()),
-            Shown::Visibility => Estimator::Arrival(Arrival { light_samples, surface: self.surface, choice }),
-            Shown::Radiance => Estimator::Direct(Direct {
+        match self.show {
+            Show::Occlusion => Shown::Occlusion(Occlusion::default()),
+            Show::Visibility => Shown::Visibility(Arrival { light_samples, surface: self.surface, choice }),
+            Show::Radiance => Shown::Radiance(Direct {
                 technique: self.technique(description),
                 light_samples,
                 bsdf_samples: samples(self.bsdf_samples, author.bsdf_samples),
@@ -170,20 +176,22 @@ impl Choices {
     }
 
     /// Where the uniforms come from.
-    pub(crate) fn sequence(&self) -> AnySequence {
-        if self.random {
-            AnySequence::Random(Random::new(self.seed))
-        } else {
-            AnySequence::Sobol(Sobol::new(self.seed))
+    ///
+    /// * `width` – of the picture (pixels)
+    pub(crate) fn sequence(&self, width: u32) -> AnySequence {
+        match self.sequence {
+            Draws::Random => AnySequence::Random(Random::new(self.seed)),
+            Draws::Sobol => AnySequence::Sobol(Sobol::new(self.seed)),
+            Draws::ZSobol => AnySequence::ZSobol(ZSobol::new(self.seed, width, self.samples)),
         }
     }
 }
 
-fn shown(value: &str) -> Option<Shown> {
+fn show(value: &str) -> Option<Show> {
     Some(match value {
-        "radiance" => Shown::Radiance,
-        "visibility" => Shown::Visibility,
-        "occlusion" => Shown::Occlusion,
+        "radiance" => Show::Radiance,
+        "visibility" => Show::Visibility,
+        "occlusion" => Show::Occlusion,
         _ => return None,
     })
 }
@@ -239,11 +247,11 @@ fn environment(value: &str) -> Option<Option<EnvironmentDensity>> {
     })
 }
 
-/// True for random numbers.
-fn sequence(value: &str) -> Option<bool> {
+fn sequence(value: &str) -> Option<Draws> {
     Some(match value {
-        "auto" | "sobol" => false,
-        "random" => true,
+        "sobol" => Draws::Sobol,
+        "auto" | "zsobol" => Draws::ZSobol,
+        "random" => Draws::Random,
         _ => return None,
     })
 }
@@ -273,6 +281,7 @@ mod tests {
             ("sequence", "random"),
             ("light-samples", "4"),
             ("bsdf-samples", "auto"),
+            ("samples", "64"),
             ("seed", "7"),
         ] {
             assert_eq!(choices.set(name, value), Ok(()), "{name}");

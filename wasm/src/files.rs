@@ -1,7 +1,8 @@
 //! Files that a page was given.
 
 use crate::Scene;
-use crate::scene::{Res, places, thrown};
+use crate::lights::places;
+use crate::scene::{Res, thrown};
 use halflight::build::{EnvironmentDescription, Image};
 use halflight::glam::Mat3;
 use halflight::light::{Emitter, EnvironmentDensity, EnvironmentMap};

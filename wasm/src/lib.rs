@@ -1,8 +1,8 @@
 //! halflight in the browser.
 //!
 //! A thin layer: what JavaScript says becomes a [`halflight::build::Description`] and choices, and what
-//! the core answers becomes numbers in typed arrays. Pixels are those of the command line with
-//! `--sequence sobol`, bit for bit.
+//! the core answers becomes numbers in typed arrays. Pixels are those of the command line, bit for bit:
+//! [`Scene::render`] does what `--spp` does, [`Scene::refine`] what `--error` does.
 //!
 //! ```js
 //! import init, { Scene } from './halflight.js';
@@ -21,12 +21,15 @@
 
 mod camera;
 mod choices;
+mod estimator;
 mod facts;
 #[cfg(feature = "files")]
 mod files;
 mod light;
+mod lights;
 mod probe;
 mod progress;
+mod refinement;
 mod render;
 mod scene;
 
@@ -37,4 +40,5 @@ pub use files::Files;
 pub use light::Light;
 pub use probe::{Probe, ProbedLight};
 pub use progress::Progress;
+pub use refinement::Refinement;
 pub use scene::Scene;

@@ -1,11 +1,11 @@
 //! The lights of a scene as things to look at and to change.
 
 use halflight::Rgb;
-use halflight::build::{Emission, Geometry, Object};
+use halflight::build::{Geometry, Object};
 use halflight::geom::Frame;
 use halflight::glam::Vec3;
 use halflight::light::{
-    AnyLight, Constant, Directional, Emitter, LightError, Point, Receiver, SurfaceDensity,
+    AnyLight, Constant, Directional, DistantDisk, Emitter, LightError, Point, Receiver, Spot, SurfaceDensity,
 };
 use halflight::num::PI;
 use halflight::shape::{AnyShape, Cylinder, Disk, Rectangle, Shape, ShapeError, Sphere};
@@ -19,8 +19,9 @@ pub struct Light {
     /// Its name in the scene, or that of its kind.
     #[wasm_bindgen(readonly)]
     pub name: String,
-    /// `rectangle`, `disk`, `sphere`, `point`, `directional` and `constant` can be changed into one
-    /// another; the others are `cylinder`, `mesh`, `spot`, `distant` and `painted`.
+    /// `rectangle`, `disk`, `sphere`, `cylinder`, `point`, `spot`, `directional`, `distant` (a far disk, like
+    /// the sun), `constant` (from all around) and `none` can be changed into one another; `mesh`, `triangle`
+    /// and `painted` cannot, but can be made brighter and of another colour.
     #[wasm_bindgen(readonly)]
     pub kind: String,
     /// Its middle (m); of lights without a place, the origin.
@@ -29,17 +30,19 @@ pub struct Light {
     /// Where it shines: the unit normal of a flat light, the way of parallel light.
     #[wasm_bindgen(readonly)]
     pub direction: Vec<f32>,
-    /// Full width and height (m); a sphere and a disk have their diameter.
+    /// Full width and height (m); a sphere and a disk have their diameter. Of a spot the full angles in
+    /// which it shines at all, and undimmed (degrees); of a distant disk that which it fills.
     #[wasm_bindgen(readonly)]
     pub size: Vec<f32>,
     /// Intensity straight ahead (W sr⁻¹) of lights with a place, irradiance (W m⁻²) of parallel light,
-    /// radiance (W m⁻² sr⁻¹) of one all around: red, green, blue.
+    /// radiance (W m⁻² sr⁻¹) of one all around and of a mesh, what multiplies the picture of a painted one:
+    /// red, green, blue.
     #[wasm_bindgen(readonly)]
     pub strength: Vec<f32>,
     /// Corners of a flat light, for drawing it: x, y, z each (m).
     #[wasm_bindgen(readonly)]
     pub outline: Vec<f32>,
-    /// True when [`crate::Scene::set_light`] can change it.
+    /// True when [`crate::Scene::set_light`] can change more than its strength.
     #[wasm_bindgen(readonly)]
     pub editable: bool,
 }
@@ -61,6 +64,10 @@ pub(crate) enum Made {
     Surface(AnyShape, Rgb),
     /// A light without one.
     Free(AnyLight<'static>),
+    /// Another radiance of a surface that stays.
+    Emission(Rgb),
+    /// None.
+    Nothing,
 }
 
 /// Why a light was refused.
@@ -84,6 +91,11 @@ impl fmt::Display for Refused {
 }
 
 impl std::error::Error for Refused {}
+
+/// Radiance that a surface can have.
+fn check_emission(radiance: Rgb) -> Result<Rgb, LightError> {
+    Constant::new(radiance).map(|_| radiance)
+}
 
 impl From<ShapeError> for Refused {
     fn from(e: ShapeError) -> Self {
@@ -118,14 +130,28 @@ impl Wanted<'_> {
                 let base = self.position - direction * (0.5 * height);
                 AnyShape::Cylinder(Cylinder::new(base, direction * height, 0.5 * width)?)
             }
-            "point" => return Ok(Made::Free(AnyLight::Point(Point::new(self.position, self.strength)?))),
-            "directional" => {
-                return Ok(Made::Free(AnyLight::Directional(Directional::new(direction, self.strength)?)));
-            }
-            "constant" => return Ok(Made::Free(AnyLight::Constant(Constant::new(self.strength)?))),
-            other => return Err(Refused::Kind(other.to_owned())),
+            "none" => return Ok(Made::Nothing),
+            "mesh" | "triangle" | "painted" => return Ok(Made::Emission(check_emission(self.strength)?)),
+            _ => return self.without_surface(direction).map(Made::Free),
         };
         Ok(Made::Surface(shape, self.strength / seen_area(&shape)))
+    }
+
+    /// A light that is no surface.
+    fn without_surface(&self, direction: Vec3) -> Result<AnyLight<'static>, Refused> {
+        let Self { position, strength, .. } = *self;
+        let [across, inner] = self.size.map(|degrees| 0.5 * degrees.to_radians());
+        Ok(match self.kind {
+            "point" => AnyLight::Point(Point::new(position, strength)?),
+            "spot" => AnyLight::Spot(Spot::new(position, direction, strength, inner.min(across), across)?),
+            "directional" => AnyLight::Directional(Directional::new(direction, strength)?),
+            "distant" => {
+                let sin = halflight::num::sin_cos(across).0;
+                AnyLight::DistantDisk(DistantDisk::new(-direction, across, strength / (PI * sin * sin))?)
+            }
+            "constant" => AnyLight::Constant(Constant::new(strength)?),
+            other => return Err(Refused::Kind(other.to_owned())),
+        })
     }
 }
 
@@ -160,7 +186,8 @@ fn seen_area(shape: &AnyShape) -> f32 {
 
 impl Light {
     /// A surface that emits.
-    pub(crate) fn of_object(object: &Object, emission: &Emission) -> Self {
+    pub(crate) fn of_object(object: &Object) -> Option<Self> {
+        let emission = object.emission.as_ref()?;
         let mut light = Self::new("mesh", emission.texture.is_none());
         match &object.geometry {
             Geometry::Shape(shape) => light.fill_from(shape, emission.radiance),
@@ -173,10 +200,18 @@ impl Light {
         if emission.texture.is_some() {
             light.kind = "painted".to_owned();
         }
+        if !light.editable {
+            light.strength = emission.radiance.to_array().to_vec();
+        }
         if !object.name.is_empty() {
             light.name.clone_from(&object.name);
         }
-        light
+        Some(light)
+    }
+
+    /// One that was taken away.
+    pub(crate) fn none() -> Self {
+        Self::new("none", true)
     }
 
     /// A light without a surface.
@@ -192,7 +227,8 @@ impl Light {
                 shown.position = s.position().to_array().to_vec();
                 shown.direction = s.axis().to_array().to_vec();
                 shown.strength = s.intensity().to_array().to_vec();
-                shown.editable = false;
+                let (beam, cutoff) = s.angles();
+                shown.size = [cutoff, beam].map(|half| 2.0 * half.to_degrees()).to_vec();
             }
             AnyLight::Directional(d) => {
                 shown.direction = d.direction().to_array().to_vec();
@@ -201,7 +237,11 @@ impl Light {
             AnyLight::DistantDisk(d) => {
                 shown.direction = (-d.axis()).to_array().to_vec();
                 shown.strength = d.irradiance().to_array().to_vec();
-                shown.editable = false;
+                let sin = halflight::num::sqrt(d.sin2_radius());
+                let cos = halflight::num::sqrt(1.0 - d.sin2_radius());
+                let across =
+                    2.0 * halflight::num::atan2_in_double(f64::from(sin), f64::from(cos)).to_degrees();
+                shown.size = vec![across as f32; 2];
             }
             other => {
                 let sample = other.sample(&facing(Vec3::Y), SurfaceDensity::Auto, [0.5; 2]);
@@ -285,18 +325,21 @@ mod tests {
                 light
             }
             Made::Free(light) => Light::of_light(light),
+            other => panic!("{other:?}"),
         }
     }
 
     #[test]
     fn a_light_that_was_made_shows_what_was_wanted() {
         let near = |a: &[f32], b: &[f32]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-5);
-        for kind in ["rectangle", "disk", "sphere", "cylinder", "point", "directional", "constant"] {
+        for kind in
+            ["rectangle", "disk", "sphere", "cylinder", "point", "spot", "directional", "distant", "constant"]
+        {
             let w = wanted(kind);
             let light = shown(&w.make(None).unwrap());
             assert_eq!(light.kind, kind);
             assert!(near(&light.strength, &[3.0, 2.0, 1.0]), "{light:?}");
-            if !matches!(kind, "directional" | "constant") {
+            if !matches!(kind, "directional" | "distant" | "constant") {
                 assert!(near(&light.position, &[1.0, 2.0, 3.0]), "{light:?}");
             }
             if !matches!(kind, "sphere" | "point" | "constant") {

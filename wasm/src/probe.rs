@@ -105,7 +105,7 @@ pub(crate) fn probe(
     let pixel = y * film.width() + x;
     let mut known = Known::new(scene, &hit, &ray);
     let lights = scene.lights().len();
-    let (arrival, mut sequence) = (choices.arrival(buffers, lights), choices.sequence());
+    let (arrival, mut sequence) = (choices.arrival(buffers, lights), choices.sequence(film.width()));
     for sample in 0..samples {
         sequence.start(pixel, sample);
         let mut sum = Rgb::BLACK;

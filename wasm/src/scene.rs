@@ -2,13 +2,12 @@
 
 use crate::camera::{look, zoomed};
 use crate::choices::Choices;
-use crate::light::{Light, Made, Wanted};
-use crate::{BuiltinScene, Facts, Probe, View, probe, render};
+use crate::light::{Light, Wanted};
+use crate::lights::{Place, places};
+use crate::{BuiltinScene, Facts, Probe, View, probe};
 use halflight::Film;
 use halflight::Rgb;
-use halflight::bsdf::{AnyBsdf, Lambert, TwoSided};
-use halflight::build::{Description, Emission, Geometry, Material, Object, SceneBuffers};
-use halflight::estimate::DifferenceSums;
+use halflight::build::{Description, SceneBuffers};
 use halflight::film::PixelRect;
 use halflight::glam::Vec3;
 use halflight::load::builtin::{BUILTIN, builtin};
@@ -23,24 +22,17 @@ pub(crate) fn thrown(error: Box<dyn Error>) -> JsError {
     JsError::new(&error.to_string())
 }
 
-/// Where a light is kept.
-#[derive(Debug, Clone, Copy)]
-pub(crate) enum Place {
-    Object(usize),
-    Free(usize),
-}
-
 /// A scene with its camera, its lights, and how it is to be sampled.
 #[wasm_bindgen]
 #[derive(Debug)]
 pub struct Scene {
     pub(crate) description: Description,
-    buffers: SceneBuffers,
+    pub(crate) buffers: SceneBuffers,
     pub(crate) places: Vec<Place>,
     pub(crate) choices: Choices,
     warnings: Vec<String>,
     /// False when the tree has the form of lights that were elsewhere.
-    settled: bool,
+    pub(crate) settled: bool,
 }
 
 #[wasm_bindgen]
@@ -121,13 +113,14 @@ impl Scene {
     /// Its lights, but for environment maps.
     #[must_use]
     pub fn lights(&self) -> Vec<Light> {
-        self.places.iter().filter_map(|place| self.light(*place)).collect()
+        self.places.iter().map(|place| self.light(*place)).collect()
     }
 
-    /// Changes the light with an index of [`Scene::lights`]; the indices stay.
+    /// Changes the light with an index of [`Scene::lights`], or adds one after the last; the indices stay.
     ///
-    /// * `kind` – `rectangle`, `disk`, `sphere`, `cylinder`, `point`, `directional` or `constant`
-    /// * `position`, `direction` (m, any length), `size` (m), `strength` – as [`Light`] has them
+    /// * `kind` – one of those that [`Light`] has: `none` takes the light away, and of a light that is not
+    ///   `editable` the kind stays
+    /// * `position`, `direction` (m, any length), `size`, `strength` – as [`Light`] has them
     ///
     /// # Errors
     /// When there is no such light, or it cannot be.
@@ -162,7 +155,9 @@ impl Scene {
 
     /// Makes a choice of `halflight render` by its name: `technique`, `heuristic`, `lights`, `choose`,
     /// `environment`, `sequence`, `light-samples`, `bsdf-samples`, `seed`. And `show`: `radiance`,
-    /// `visibility` (arriving luminance of the irradiance in red, without shadows in green), `occlusion`.
+    /// `visibility` (arriving luminance of the irradiance in red, without shadows in green), `occlusion`;
+    /// and `samples`: how many a pixel is meant to get, which the sequence is laid out for. The command line
+    /// says its `--spp`, or with `--error` 65536, which is what it is at first.
     ///
     /// # Errors
     /// When there is no such choice.
@@ -191,7 +186,7 @@ impl Scene {
         pixels: &mut [u32],
     ) -> Result<Vec<f64>, JsError> {
         let tile = PixelRect { x0, y0, x1, y1 };
-        let sums = self.add_samples(tile, first, last, pixels).map_err(thrown)?;
+        let sums = self.add_samples(tile, first..last, pixels).map_err(thrown)?;
         let (sum, values) = sums.to_parts();
         Ok(vec![sum, values as f64])
     }
@@ -239,88 +234,12 @@ impl Scene {
         self.build()
     }
 
-    fn light(&self, place: Place) -> Option<Light> {
-        match place {
-            Place::Object(i) => {
-                let object = self.description.objects.get(i)?;
-                Some(Light::of_object(object, object.emission.as_ref()?))
-            }
-            Place::Free(i) => self.description.lights.get(i).map(Light::of_light),
-        }
-    }
-
-    fn change_light(&mut self, index: usize, wanted: &Wanted<'_>) -> Res<()> {
-        let place = *self.places.get(index).ok_or("there is no such light")?;
-        let light = self.light(place).filter(|light| light.editable).ok_or("this light cannot be changed")?;
-        let before = match place {
-            Place::Object(i) => match &self.description.objects[i].geometry {
-                Geometry::Shape(shape) => Some(*shape),
-                Geometry::Mesh(_) => None,
-            },
-            Place::Free(_) => None,
-        };
-        match (place, wanted.make(before.as_ref())?) {
-            (Place::Object(i), Made::Surface(shape, radiance)) => {
-                let object = &mut self.description.objects[i];
-                object.geometry = Geometry::Shape(shape);
-                if let Some(emission) = &mut object.emission {
-                    emission.radiance = radiance;
-                }
-            }
-            (Place::Free(i), Made::Free(light)) => self.description.lights[i] = light,
-            (Place::Object(i), Made::Free(light)) => {
-                self.description.objects.remove(i);
-                self.forget(place);
-                self.places[index] = Place::Free(self.description.lights.len());
-                self.description.lights.push(light);
-            }
-            (Place::Free(i), Made::Surface(shape, radiance)) => {
-                self.description.lights.remove(i);
-                self.forget(place);
-                self.places[index] = Place::Object(self.description.objects.len());
-                let object = lamp(&mut self.description, light.name, shape, radiance)?;
-                self.description.objects.push(object);
-            }
-        }
-        self.settled = false;
-        if self.buffers.relight(&self.description)? { Ok(()) } else { self.build() }
-    }
-
-    /// Takes note that something was removed.
-    fn forget(&mut self, removed: Place) {
-        for place in &mut self.places {
-            match (place, removed) {
-                (Place::Object(i), Place::Object(gone)) | (Place::Free(i), Place::Free(gone))
-                    if *i > gone =>
-                {
-                    *i -= 1;
-                }
-                _ => {}
-            }
-        }
-    }
-
-    fn film(&self) -> Res<Film> {
+    pub(crate) fn film(&self) -> Res<Film> {
         Ok(Film::new(self.description.width, self.description.height, self.description.filter)?)
     }
 
-    fn camera(&self) -> Res<halflight::Camera> {
+    pub(crate) fn camera(&self) -> Res<halflight::Camera> {
         Ok(self.description.camera.camera(self.description.width, self.description.height)?)
-    }
-
-    pub(crate) fn add_samples(
-        &self,
-        tile: PixelRect,
-        first: u32,
-        last: u32,
-        pixels: &mut [u32],
-    ) -> Res<DifferenceSums> {
-        let film = self.film()?.with_crop(tile)?;
-        if pixels.len() != tile.area() * render::WORDS {
-            return Err("a pixel takes eight words".into());
-        }
-        let of = (&self.description, &self.buffers);
-        Ok(render::render(of, (self.camera()?, film), &self.choices, tile, first..last, pixels))
     }
 
     pub(crate) fn look_at_pixel(&self, x: u32, y: u32, samples: u32) -> Res<Option<Probe>> {
@@ -328,31 +247,4 @@ impl Scene {
         let of = (&bound.scene(), &self.buffers);
         Ok(probe::probe(of, (&self.camera()?, &self.film()?), &self.choices, (x, y), samples))
     }
-}
-
-/// Where the lights are kept.
-pub(crate) fn places(description: &Description) -> Vec<Place> {
-    let objects = description.objects.iter().enumerate().filter(|(_, o)| o.emission.is_some());
-    objects.map(|(i, _)| Place::Object(i)).chain((0..description.lights.len()).map(Place::Free)).collect()
-}
-
-/// A surface that emits and reflects nothing.
-fn lamp(
-    description: &mut Description,
-    name: String,
-    shape: halflight::shape::AnyShape,
-    radiance: Rgb,
-) -> Res<Object> {
-    let black = TwoSided::both(AnyBsdf::Lambert(Lambert::new(Rgb::BLACK)?));
-    let plain = |m: &Material| m.bsdf == black && m.is_plain();
-    let material = match description.materials.iter().position(plain) {
-        Some(index) => index,
-        None => {
-            let textures = <[_; 2]>::default();
-            description.materials.push(Material { name: "lamp".to_owned(), bsdf: black, textures });
-            description.materials.len() - 1
-        }
-    };
-    let emission = Some(Emission { radiance, texture: None, two_sided: false });
-    Ok(Object { name, geometry: Geometry::Shape(shape), material, emission, object_space: None })
 }

@@ -59,6 +59,8 @@ export class Core {
   #module;
   #memory;
   #scenes = [];
+  /** Tiles in the middle of a step, two at most. */
+  #tiles = [];
 
   /** Answers a message. */
   async handle(message) {
@@ -81,6 +83,7 @@ export class Core {
       return { lights: lights(scene) };
     }
     if (message.type === 'render') return this.#render(scene, message);
+    if (message.type === 'refine') return this.#refine(scene, message);
     if (message.type === 'probe') {
       scene.resize(...message.size);
       return { probe: probe(scene, message) };
@@ -92,14 +95,38 @@ export class Core {
     const scene = open(this.#module, source);
     this.#scenes[side]?.free();
     this.#scenes[side] = scene;
+    for (const lane of this.#tiles.keys()) this.#put(lane);
     const author = { facts: facts(scene), view: view(scene) };
     change(scene, edits);
     return { ...author, lights: lights(scene) };
   }
 
-  #render(scene, { size, tile: [x0, y0, x1, y1], first, last, pixels }) {
+  /** Keeps a tile in the place of another, or of none. */
+  #put(lane, tile) {
+    this.#tiles[lane]?.free();
+    this.#tiles[lane] = tile;
+  }
+
+  /** Takes a step of a tile, or so much of it as time allows; without a `tile`, goes on with the last. */
+  #refine(scene, { lane, size, tile, state, pixels, error, most, milliseconds }) {
     const start = performance.now();
     scene.resize(...size);
+    scene.choose('samples', String(most));
+    if (tile) this.#put(lane, new this.#module.Refinement(...tile, state, pixels));
+    const now = this.#tiles[lane];
+    const samples = scene.refine(now, error, milliseconds);
+    const answer = { samples, midway: now.is_midway() };
+    if (!answer.midway) {
+      Object.assign(answer, { state: now.state(), pixels: now.pixels(), mse: now.relative_mse() });
+      this.#put(lane);
+    }
+    return { ...answer, ms: performance.now() - start };
+  }
+
+  #render(scene, { size, tile: [x0, y0, x1, y1], first, last, most, pixels }) {
+    const start = performance.now();
+    scene.resize(...size);
+    scene.choose('samples', String(most));
     const words = pixels ?? new Uint32Array(8 * (x1 - x0) * (y1 - y0));
     const [sum, values] = scene.render(x0, y0, x1, y1, first, last, words);
     return { pixels: words, sum, values, ms: performance.now() - start };
@@ -107,4 +134,4 @@ export class Core {
 }
 
 /** The memory that goes with an answer, rather than being copied. */
-export const transfers = (answer) => (answer.pixels ? [answer.pixels.buffer] : []);
+export const transfers = ({ pixels, state }) => [pixels, state].filter(Boolean).map((words) => words.buffer);

@@ -1,5 +1,5 @@
-// Progressive rendering: passes that double the samples, cut into tiles for the workers; and quick
-// frames at a lower resolution while something moves.
+// Progressive rendering. One picture gets its samples where its error is, tile by tile; two that are compared
+// get passes that double the samples. And quick frames at a lower resolution while something moves.
 
 import { Film } from './film.js';
 
@@ -9,6 +9,8 @@ const TILE_MS = 30;
 const FRAME_MS = 22;
 /** How long nothing must have moved before the picture is refined (ms). */
 const STILL_MS = 140;
+/** How often something is said about it (ms). */
+const REPORT_MS = 100;
 /** Samples after which a pixel is as good as single precision can make it. */
 const MOST_SAMPLES = 1 << 16;
 
@@ -19,6 +21,8 @@ export class Renderer extends EventTarget {
   target = 0.01;
   /** Fixed number of samples instead, when not 0. */
   budget = 0;
+  /** False when every pixel of one picture, too, is to get as many samples. */
+  adaptive = true;
   /** `samples` or `time`: what two sides have in common. */
   equal = 'samples';
   /** Samples of all workers in a second. */
@@ -95,7 +99,13 @@ export class Renderer extends EventTarget {
   /** True when a side is good enough, or has what it may have. */
   done(film) {
     if (this.budget) return film.samples >= this.budget;
+    if (this.refines) return film.meets(this.target);
     return film.samples >= MOST_SAMPLES || (film.samples >= 8 && film.error <= this.target);
+  }
+
+  /** True when samples go where the error is. */
+  get refines() {
+    return this.adaptive && !this.budget && this.films.length === 1;
   }
 
   /** The side to work on next; undefined when all are done. Of two, none goes on without the other. */
@@ -127,6 +137,8 @@ export class Renderer extends EventTarget {
       await this.#rest(500);
     } else if (this.#moving) {
       await this.#frame();
+    } else if (this.refines) {
+      await this.#refine(film);
     } else {
       await this.#pass(film);
     }
@@ -176,12 +188,57 @@ export class Renderer extends EventTarget {
       const edge = (k) => Math.round((height * k) / workers.length);
       const tile = [0, edge(i), width, edge(i + 1)];
       if (tile[1] === tile[3]) return;
-      const message = { type: 'render', side, size: [width, height], tile, first: 0, last: 1 };
+      const message = { type: 'render', side, size: [width, height], tile, first: 0, last: 1, most: 1 };
       const { pixels, ms } = await worker.ask(message);
       film.busy += ms;
       film.paste(tile, pixels);
     }));
     return film;
+  }
+
+  /** Steps of all tiles that are not good enough, those first that have had least. */
+  async #refine(film) {
+    const generation = this.#generation;
+    if (!film.tiles) film.cutIntoTiles();
+    const goes = () => generation === this.#generation && this.refines && !this.paused && !document.hidden;
+    const start = performance.now() - this.elapsed;
+    let [told, taken] = [performance.now(), 0];
+    const work = async (worker, lane) => {
+      for (let tile; goes() && (tile = film.nextTile(this.target));) {
+        tile.busy = true;
+        taken += await this.#take(worker, lane, { film, tile, generation });
+        if (generation !== this.#generation) return;
+        tile.busy = false;
+        const now = performance.now();
+        this.elapsed = now - start;
+        if (now - told < REPORT_MS && !film.meets(this.target)) continue;
+        this.#measure(taken, now - told);
+        [told, taken] = [now, 0];
+        this.#tell('pass', { film, side: 0 });
+      }
+    };
+    await Promise.all(this.#pool.workers.flatMap((worker) => [work(worker, 0), work(worker, 1)]));
+  }
+
+  /** Takes a step of a tile, in pieces between which a worker listens; how many samples that were. */
+  async #take(worker, lane, { film, tile, generation }) {
+    const size = [film.width, film.height];
+    const error = this.target;
+    const message = { type: 'refine', side: 0, lane, size, error, most: MOST_SAMPLES, milliseconds: TILE_MS };
+    const [pixels, { rect, state }] = [film.cut(tile.rect), tile];
+    let answer = await worker.ask({ ...message, tile: rect, state, pixels }, [pixels.buffer, state.buffer]);
+    let { samples } = answer;
+    film.busy += answer.ms;
+    while (answer.midway && generation === this.#generation) {
+      answer = await worker.ask(message);
+      samples += answer.samples;
+      film.busy += answer.ms;
+    }
+    if (generation !== this.#generation) return 0;
+    film.samples += samples / (film.width * film.height);
+    film.refined(tile, answer, samples, error);
+    if (samples > 0) this.#tell('tile', { film, side: 0, tile: rect });
+    return samples;
   }
 
   /** As many samples again for each pixel of a side. */
@@ -213,7 +270,7 @@ export class Renderer extends EventTarget {
 
   async #tile(worker, { film, side, tile, first, last, generation }) {
     const pixels = film.cut(tile);
-    const message = { type: 'render', side, size: [film.width, film.height], tile, first, last, pixels };
+    const message = { type: 'render', side, size: [film.width, film.height], tile, first, last, most: this.budget || MOST_SAMPLES, pixels };
     const answer = await worker.ask(message, [pixels.buffer]);
     if (generation !== this.#generation) return [0, 0];
     film.paste(tile, answer.pixels);

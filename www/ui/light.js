@@ -5,12 +5,17 @@ import { checkbox, digits, el, numbers, row, select, slider } from './widgets.js
 
 /** Kinds that can be changed into one another. */
 const KINDS = {
-  rectangle: 'rectangle', disk: 'disk', sphere: 'sphere', cylinder: 'cylinder', point: 'point',
-  directional: 'directional', constant: 'environment, even',
+  rectangle: 'rectangle', disk: 'disk', sphere: 'sphere', cylinder: 'cylinder', point: 'point', spot: 'spot',
+  directional: 'directional', distant: 'sun', constant: 'environment, even', none: 'none',
 };
-const PLACED = ['rectangle', 'disk', 'sphere', 'cylinder', 'point'];
-const FLAT = ['rectangle', 'disk'];
-const UNITS = { directional: ' W/m²', constant: ' W/m²sr' };
+const PLACED = ['rectangle', 'disk', 'sphere', 'cylinder', 'point', 'spot'];
+const AIMED = ['rectangle', 'disk', 'spot'];
+const PARALLEL = ['directional', 'distant'];
+const UNITS = { directional: ' W/m²', distant: ' W/m²', constant: ' W/m²sr', mesh: ' W/m²sr', triangle: ' W/m²sr', painted: '×' };
+/** Most lights that a scene is given here. */
+const MOST = 16;
+/** Full angles of a new light (degrees): of a spot, all and undimmed; of a sun, the true one's. */
+const ANGLES = { spot: [60, 40], distant: [0.533, 0.533] };
 
 const toCode = (v) => Math.round(255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * v ** (1 / 2.4) - 0.055));
 const fromCode = (c) => (c <= 10 ? c / 255 / 12.92 : ((c / 255 + 0.055) / 1.055) ** 2.4);
@@ -27,18 +32,31 @@ const joined = (hex, most) => [1, 3, 5].map((i) => most * fromCode(Number.parseI
 function converted(light, kind, { target, radius }) {
   const next = { ...light, kind };
   const away = Math.max(length(sub(light.position, target)), 1e-3) ** 2;
-  const perIntensity = (k) => ({ directional: 1 / away, constant: 1 / (away * Math.PI) })[k] ?? 1;
+  const perIntensity = (k) => ({ directional: 1 / away, distant: 1 / away, constant: 1 / (away * Math.PI) })[k] ?? 1;
   next.strength = scale(light.strength, perIntensity(kind) / perIntensity(light.kind));
+  if (light.kind === 'none') return { ...next, ...fresh(kind, { target, radius }) };
+  if (kind === 'none') return next;
   if (!PLACED.includes(light.kind) && PLACED.includes(kind)) {
     const back = length(light.direction) > 0 ? light.direction : [0, -1, 0];
     next.position = add(target, unit(back), -0.8 * radius);
     const distance = (0.8 * radius) ** 2;
     next.strength = scale(light.strength, distance / (light.kind === 'constant' ? 1 / Math.PI : 1));
   }
-  if (!(next.size[0] > 0)) next.size = [0.15 * radius, 0.15 * radius];
+  if (!(next.size[0] > 0) || light.kind in ANGLES) next.size = [0.15 * radius, 0.15 * radius];
   if (kind !== 'rectangle') next.size = kind === 'cylinder' ? next.size : [next.size[0], next.size[0]];
-  if (kind === 'directional' && light.kind !== 'constant') next.direction = unit(sub(target, light.position));
+  next.size = ANGLES[kind] ?? next.size;
+  if (kind === 'spot' && !AIMED.includes(light.kind)) next.direction = unit(sub(target, next.position));
+  if (PARALLEL.includes(kind) && PLACED.includes(light.kind)) next.direction = unit(sub(target, light.position));
   return next;
+}
+
+/** A light where there was none: above what the camera turns around, and a little to its side. */
+function fresh(kind, { target, radius }) {
+  const away = 0.45 * radius;
+  const position = add(target, unit([-0.5, 1, 0.4]), away);
+  const strength = { directional: 2, distant: 2, constant: 0.6 }[kind] ?? 2 * away * away;
+  const size = ANGLES[kind] ?? [0.1 * radius, 0.1 * radius];
+  return { kind, position, direction: unit(sub(target, position)), size, strength: Array(3).fill(strength) };
 }
 
 /** Angles of a direction: from where the light comes (degrees). */
@@ -65,29 +83,42 @@ export class LightPanel {
   show() {
     const { lights, state } = this.#app;
     const rows = el('div', { className: 'rows' });
-    const light = lights[state.light];
-    if (!light) {
-      rows.append(el('p', { className: 'note' }, 'This scene is lit by its surroundings alone.'));
-      this.#root.replaceChildren(rows);
-      return;
-    }
+    const light = lights[state.light] && this.#app.currentLight();
+    if (!light) rows.append(el('p', { className: 'note' }, 'This scene is lit by its surroundings alone.'));
     if (lights.length > 1) {
-      const names = Object.fromEntries(lights.map((l, i) => [i, l.name]));
+      const kind = (l, i) => state.lights[i]?.kind ?? l.kind;
+      // A light without a name has that of the kind that it had.
+      const named = (l, i) => `${i + 1}: ${l.name in KINDS ? KINDS[kind(l, i)] : l.name}`;
+      const names = Object.fromEntries(lights.map((l, i) => [i, named(l, i)]));
       rows.append(select('Which', names, String(state.light), (i) => this.#app.chooseLight(Number(i))));
     }
-    if (light.editable) rows.append(...this.#fields(light));
-    else rows.append(el('p', { className: 'note' }, `A light of kind ${light.kind} can be seen here, but not changed.`));
+    if (light) rows.append(...this.#fields(light, lights[state.light].editable));
+    if (lights.length < MOST) rows.append(this.#adder(lights.length));
     this.#root.replaceChildren(rows);
   }
 
-  #fields(light) {
+  /** Adds a light after the last. */
+  #adder(index) {
+    const button = el('button', { type: 'button', className: 'add' }, 'Add a light');
+    button.onclick = () => {
+      const { orbit, facts } = this.#app;
+      this.#app.addLight(index, fresh('sphere', { target: orbit.target, radius: facts.radius }));
+    };
+    return button;
+  }
+
+  #fields(light, editable) {
     const { radius } = this.#app.facts;
     const set = (change) => this.#app.setLight({ ...this.#app.currentLight(), ...change });
-    const rows = [select('Kind', KINDS, light.kind, (kind) => {
-      const around = { target: this.#app.orbit.target, radius };
-      this.#app.setLight(converted(this.#app.currentLight(), kind, around));
-      this.show();
-    })];
+    const rows = [];
+    if (editable) {
+      rows.push(select('Kind', KINDS, light.kind, (kind) => {
+        const around = { target: this.#app.orbit.target, radius };
+        this.#app.setLight(converted(this.#app.currentLight(), kind, around));
+        this.show();
+      }));
+    }
+    if (light.kind === 'none') return rows;
     const [colour, strength] = split(light.strength);
     const picker = el('input', { type: 'color' });
     picker.value = colour;
@@ -96,7 +127,8 @@ export class LightPanel {
     rows.push(slider('Intensity', { min: most / 30, max: most * 30, value: most, log: true, unit: UNITS[light.kind] ?? ' W/sr' },
       (v) => set({ strength: joined(picker.value, v) })));
     rows.push(row('Colour', picker));
-    if (light.kind !== 'constant') rows.push(...this.#place(light, radius, set));
+    if (editable && light.kind !== 'constant') rows.push(...this.#place(light, radius, set));
+    if (!editable) rows.push(el('p', { className: 'note' }, `A light of kind ${light.kind} stays where it is.`));
     return rows;
   }
 
@@ -110,6 +142,12 @@ export class LightPanel {
       rows.push(slider('Height', { ...range, value: light.size[1] }, (v) => at(1, v)));
     } else if (light.kind === 'disk' || light.kind === 'sphere') {
       rows.push(slider('Diameter', { ...range, value: light.size[0] }, (v) => set({ size: [v, v] })));
+    } else if (light.kind === 'spot') {
+      const wide = { min: 1, max: 170, format: (v) => digits(v, 3), unit: '°' };
+      rows.push(slider('Cone', { ...wide, value: light.size[0] }, (v) => set({ size: [v, Math.min(v, this.#app.currentLight().size[1])] })));
+      rows.push(slider('Undimmed', { ...wide, min: 0, value: light.size[1] }, (v) => set({ size: [Math.max(v, this.#app.currentLight().size[0]), v] })));
+    } else if (light.kind === 'distant') {
+      rows.push(slider('Diameter', { min: 0.05, max: 60, value: light.size[0], log: true, format: (v) => digits(v, 3), unit: '°' }, (v) => set({ size: [v, v] })));
     }
     if (placed) {
       rows.push(numbers('Place (m)', ['x', 'y', 'z'], light.position, (i, v) => {
@@ -118,10 +156,10 @@ export class LightPanel {
         this.#app.moveLight(position);
       }));
     }
-    if (FLAT.includes(light.kind)) {
+    if (AIMED.includes(light.kind)) {
       rows.push(checkbox('Stays aimed when it moves', this.#app.state.aim, (aim) => this.#app.setAim(aim)));
     }
-    if (FLAT.includes(light.kind) || light.kind === 'directional') {
+    if (AIMED.includes(light.kind) || PARALLEL.includes(light.kind)) {
       const turn = (i, v) => { const now = angles(this.#app.currentLight().direction); now[i] = v; set({ direction: direction(...now) }); };
       const [elevation, azimuth] = angles(light.direction);
       const degrees = (v) => `${Math.round(v)}`;

@@ -27,6 +27,7 @@ export class SamplingPanel {
     }
     const rows = el('div', { className: 'rows' },
       checkbox('Compare two, side by side', state.compare, (on) => this.#app.compare(on)), grid);
+    if (!state.compare) rows.append(checkbox('Samples go where the error is', state.adaptive, (on) => this.#app.setAdaptive(on)));
     if (state.compare) {
       rows.append(buttons('At equal', { samples: 'equal samples', time: 'equal time' }, state.equal, (v) => this.#app.setEqual(v)));
     }

@@ -7,6 +7,9 @@ const byId = (id) => document.getElementById(id);
 
 const percent = (error) => (error === undefined ? '–' : `${digits(100 * error, 2)} %`);
 
+/** Samples of a pixel in the mean. */
+const mean = (samples) => (Math.abs(samples - Math.round(samples)) < 1e-6 ? String(Math.round(samples)) : samples.toFixed(1));
+
 function seconds(ms) {
   const s = ms / 1000;
   return s < 60 ? `${s.toFixed(1)} s` : `${Math.floor(s / 60)} min ${Math.floor(s % 60)} s`;
@@ -31,7 +34,7 @@ export class Status {
     if (films.length === 0) return;
     const [film] = films;
     byId('error').textContent = films.map((f) => percent(moving ? undefined : f.error)).join(' | ');
-    byId('spp').textContent = films.map((f) => f.samples).join(' | ');
+    byId('spp').textContent = films.map((f) => mean(f.samples)).join(' | ');
     byId('rate').textContent = `${digits(renderer.rate / 1e6, 2)} M`;
     const fps = renderer.frames.length;
     byId('elapsed').textContent = moving ? `${fps} frames/s` : seconds(renderer.elapsed);
@@ -66,7 +69,7 @@ export class Status {
       const film = films[side];
       const bold = document.createElement('b');
       bold.textContent = named(state.sides[side]);
-      label.replaceChildren(bold, ` ${percent(film?.error)}, ${film?.samples ?? 0} samples`);
+      label.replaceChildren(bold, ` ${percent(film?.error)}, ${mean(film?.samples ?? 0)} samples`);
       label.style.bottom = `${top + 10}px`;
       label.style[name] = `${left + 10}px`;
     });

@@ -85,7 +85,7 @@ export function slider(name, { min, max, value, log = false, step, format = digi
 export function numbers(name, labels, values, onInput) {
   const fields = labels.map((label, i) => {
     const field = el('input', { type: 'number', step: 'any', 'aria-label': `${name} ${label}`, title: label });
-    field.value = String(Number(values[i].toPrecision(4)));
+    field.value = String(Number(values[i].toPrecision(3)));
     field.oninput = () => {
       if (Number.isFinite(field.valueAsNumber)) onInput(i, field.valueAsNumber);
     };
