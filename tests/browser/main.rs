@@ -11,5 +11,6 @@
 mod controls;
 mod driver;
 mod files;
+mod measure;
 mod page;
 mod pictures;
