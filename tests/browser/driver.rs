@@ -170,7 +170,7 @@ impl Browser {
     /// Drops a file in the middle of the window.
     pub(crate) fn drop_file(&self, file: &Path) -> Res<()> {
         let data = json!({ "items": [], "files": [file], "dragOperationsMask": 1 });
-        for kind in ["dragEnter", "dragOver", "drop"] {
+        for kind in ["dragEnter", "dragOver", "dragOver", "drop"] {
             let event = json!({ "type": kind, "x": 300, "y": 300, "data": data });
             self.cdp("Input.dispatchDragEvent", &event)?;
         }
