@@ -1,6 +1,6 @@
 //! Reads and writes scenes (std).
 //!
-//! Scenes are Mitsuba 3 XML with PLY and OBJ meshes, or glTF 2.0: the part of them that halflight
+//! Scenes are Mitsuba 3 XML with PLY, OBJ and serialized meshes, or glTF 2.0: the part of them that halflight
 //! renders. What is outside of that part is an error that says where it is and what is supported, or, when
 //! asked for, a warning.
 
