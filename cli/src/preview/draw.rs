@@ -171,12 +171,28 @@ fn sixel(text: &mut String, (width, height): (u32, u32), codes: &[[f32; 3]]) {
             let bits = |column: &Vec<u32>| {
                 column.iter().zip(0..).map(|(c, bit)| u8::from(*c == colour) << bit).sum::<u8>()
             };
-            text.extend(band.iter().map(|column| char::from(b'?' + bits(column))));
+            let columns: Vec<u8> = band.iter().map(bits).collect();
+            runs(text, &columns);
             text.push('$');
         }
         text.push('-');
     }
     text.push_str("\x1b\\");
+}
+
+/// Columns of six bits; those that repeat by their number, and none at the end that is empty.
+fn runs(text: &mut String, columns: &[u8]) {
+    let mut runs = columns.chunk_by(|a, b| a == b).peekable();
+    while let Some(run) = runs.next() {
+        let letter = char::from(b'?' + run[0]);
+        match run.len() {
+            _ if run[0] == 0 && runs.peek().is_none() => {}
+            count @ 4.. => {
+                let _ = write!(text, "!{count}{letter}");
+            }
+            count => text.extend(std::iter::repeat_n(letter, count)),
+        }
+    }
 }
 
 /// Two pixels in a cell.
@@ -228,6 +244,13 @@ mod tests {
         let sixel = drawn(Protocol::Sixel);
         assert!(sixel.contains("\x1bPq\"1;1;1;2#0;2;0;0;0#1;2;0;0;20"), "{sixel:?}");
         assert!(sixel.contains("#215;2;100;100;100#5A$#180@$-\x1b\\"), "{sixel:?}");
+    }
+
+    #[test]
+    fn what_repeats_in_a_sixel_is_counted() {
+        let mut text = String::new();
+        runs(&mut text, &[0, 0, 0, 0, 0, 63, 63, 63, 63, 1, 1, 1, 0, 0, 2, 0, 0, 0, 0]);
+        assert_eq!(text, "!5?!4~@@@??A");
     }
 
     #[test]

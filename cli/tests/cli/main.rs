@@ -17,6 +17,7 @@ mod layers;
 mod output_range;
 mod parts;
 mod paths;
+mod preview;
 mod results;
 mod serve;
 mod support;
