@@ -150,7 +150,7 @@ impl Keeper {
             let (done, wait) = channel::<()>();
             scope.spawn(move || {
                 while wait.recv_timeout(*every) == Err(RecvTimeoutError::Timeout) {
-                    if let Err(failure) = self.save(path, tiles, false) {
+                    if let Err(failure) = self.save(path, path, tiles, false) {
                         // The render itself is well: it goes on.
                         failure.warn();
                     }
@@ -172,8 +172,10 @@ impl Keeper {
         interrupted: bool,
     ) -> Result<(), Failure> {
         match (&self.file, &self.checkpoint) {
-            (Some(file), _) if !interrupted => self.save(file.target(), tiles, true),
-            (_, Some(checkpoint)) if interrupted => self.save(&checkpoint.path, tiles, false),
+            (Some(file), _) if !interrupted => self.save(file.target(), file.path(), tiles, true),
+            (_, Some(checkpoint)) if interrupted => {
+                self.save(&checkpoint.path, &checkpoint.path, tiles, false)
+            }
             _ => Ok(()),
         }
     }
@@ -196,9 +198,12 @@ impl Keeper {
     }
 
     /// Writes a file of the tiles: under another name first, so that at any time the file is whole.
+    ///
+    /// * `shown` – its name as the user knows it
     fn save<P: Stored, S: State>(
         &self,
         path: &Path,
+        shown: &Path,
         tiles: &[Mutex<Tile<P, S>>],
         complete: bool,
     ) -> Result<(), Failure> {
@@ -215,7 +220,7 @@ impl Keeper {
         write().map_err(|e| {
             // What is there of it is of no use; the failure is told in any case.
             let _ = fs::remove_file(&unfinished);
-            Failure::new(format!("cannot write {}: {}", path.display(), io_reason(&e)))
+            Failure::new(format!("cannot write {}: {}", shown.display(), io_reason(&e)))
                 .tip("make room, or choose another place with -o")
         })
     }

@@ -11,6 +11,7 @@ mod goal;
 mod interrupt;
 mod keep;
 mod measure;
+mod memory;
 mod number;
 mod output;
 mod picture;

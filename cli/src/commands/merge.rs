@@ -4,6 +4,7 @@ use crate::args::{MergeArgs, RenderArgs};
 use crate::driver::{self, Goal, Rendered};
 use crate::failure::{Exit, Failure};
 use crate::keep::{open, refused};
+use crate::memory;
 use crate::number::{counted, percent};
 use crate::report::{Report, Seconds};
 use crate::save::{Files, Saved};
@@ -117,6 +118,7 @@ fn finish<P: Saved + Stored>(
     header: &Header,
     write: impl FnOnce(&Rendered<P>, &Report) -> Result<(), Failure>,
 ) -> Result<Exit, Failure> {
+    memory::check_merge(header.crop.area() as u64, size_of::<P>(), args.layers)?;
     let rendered = match header.aim {
         Aim::Error { target, most, adaptive: true } => {
             let target = Target::new(target, most);

@@ -8,7 +8,8 @@ use crate::failure::{Exit, Failure};
 use crate::goal;
 use crate::interrupt::on_interrupt;
 use crate::keep::Keeper;
-use crate::number::{bytes, counted, percent};
+use crate::memory;
+use crate::number::{counted, percent};
 use crate::plan::{self, Plan};
 use crate::preview::{Preview, Shown};
 use crate::progress::{RenderBar, Step};
@@ -22,7 +23,6 @@ use halflight::estimate::{Job, LayeredPixel, PixelStats};
 use halflight::light::Emitter;
 use halflight::{Camera, Film};
 use rayon::{ThreadPool, ThreadPoolBuilder};
-use std::hint::black_box;
 use std::thread::available_parallelism;
 use std::time::Instant;
 
@@ -174,6 +174,7 @@ pub(super) fn prepare(args: &RenderArgs, begin: Instant) -> Result<Prepared, Fai
     let buffers = {
         let _step = Step::begin(format!("building the tree for {name}"), args.quiet);
         let start = Instant::now();
+        memory::check_tree(found.description.triangle_count() as u64).map_err(|e| e.about(&name))?;
         let buffers =
             SceneBuffers::new(&found.description).map_err(|e| Failure::new(format!("{name}: {e}")))?;
         seconds.build = start.elapsed().as_secs_f64();
@@ -257,28 +258,11 @@ fn view(args: &RenderArgs, description: &Description) -> Result<(Film, Camera), 
             Failure::new(e).tip(format!("the film is {width}×{height} pixels; choose --crop within it"))
         })?;
     }
-    check_memory(
-        &film,
-        if args.sees_layers() { size_of::<LayeredPixel>() } else { size_of::<PixelStats>() },
-    )?;
+    let layers = args.sees_layers();
+    let pixel = if layers { size_of::<LayeredPixel>() } else { size_of::<PixelStats>() };
+    memory::check_film(&film, args.part.map_or(1, |part| part.of), pixel, layers)?;
     let camera = description.camera.camera(width, height).map_err(Failure::new)?;
     Ok((film, camera))
-}
-
-/// Asks for the film's memory once as a whole: piece by piece, the system would promise more than it
-/// has, and end the program later.
-fn check_memory(film: &Film, bytes_per_pixel: usize) -> Result<(), Failure> {
-    let pixels = film.crop().area();
-    let mut probe = Vec::<u8>::new();
-    let granted = probe.try_reserve_exact(pixels * bytes_per_pixel).is_ok();
-    black_box(&probe);
-    if granted {
-        return Ok(());
-    }
-    let (width, height) = (film.crop().width(), film.crop().height());
-    let needed = bytes(pixels as u64 * bytes_per_pixel as u64);
-    Err(Failure::new(format!("{width}×{height} pixels need {needed} of memory, more than there is"))
-        .tip("choose a smaller --width and --height, or a part with --crop"))
 }
 
 /// Columns and rows; one that is not given follows from the other, so that the picture keeps its shape.

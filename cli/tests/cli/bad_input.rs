@@ -242,7 +242,7 @@ fn a_film_that_memory_cannot_hold() {
         .unwrap()
         .into();
     run.assert_refusal(&script);
-    assert!(run.stderr.contains("128 GiB of memory") && run.stderr.contains("--crop"), "{run:?}");
+    assert!(run.stderr.contains("about 288 GiB of memory") && run.stderr.contains("--crop"), "{run:?}");
 }
 
 #[test]

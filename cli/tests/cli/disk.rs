@@ -51,6 +51,60 @@ fn a_full_disk_leaves_the_old_file() {
     assert_eq!(names, 1, "a partial file is left");
 }
 
+/// Runs the program with files of a few kilobytes at most, and an error in place of the signal.
+#[cfg(unix)]
+fn cramped(folder: &Folder, line: &str) -> Run {
+    let halflight = env!("CARGO_BIN_EXE_halflight");
+    let script = format!("trap '' XFSZ; ulimit -f 8; exec '{halflight}' {line}");
+    let mut sh = std::process::Command::new("sh");
+    sh.args(["-c", &script]).current_dir(folder.path("")).output().unwrap().into()
+}
+
+#[cfg(unix)]
+#[test]
+fn a_part_that_finds_no_room_leaves_the_old_one() {
+    let folder = Folder::new();
+    fs::write(folder.path("1.part"), "an older part").unwrap();
+    let line = "render scene.xml --part 1/2 --width 100 -o 1.part --quiet";
+    let run = cramped(&folder, line);
+    run.assert_refusal(line);
+    assert!(run.stderr.contains("cannot write 1.part"), "{run:?}");
+    assert_eq!(folder.bytes("1.part"), b"an older part");
+    assert_eq!(folder.names(), ["1.part", "scene.xml"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_merged_picture_that_finds_no_room_leaves_parts_and_the_old_one() {
+    let folder = Folder::new();
+    for i in [1, 2] {
+        folder.good(&format!("render scene.xml --part {i}/2 --width 100 -o {i}.part --quiet"));
+    }
+    let parts = [folder.bytes("1.part"), folder.bytes("2.part")];
+    fs::write(folder.path("out.exr"), "an older picture").unwrap();
+    let line = "merge 1.part 2.part -o out.exr";
+    let run = cramped(&folder, line);
+    run.assert_refusal(line);
+    assert!(run.stderr.contains("cannot write out.exr"), "{run:?}");
+    assert_eq!(folder.bytes("out.exr"), b"an older picture");
+    assert_eq!([folder.bytes("1.part"), folder.bytes("2.part")], parts);
+    assert_eq!(folder.names(), ["1.part", "2.part", "out.exr", "scene.xml"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_checkpoint_that_finds_no_room_does_not_end_the_render() {
+    let folder = Folder::new();
+    let line = "render scene.xml -o out.png --width 24 --spp 4000 --quiet";
+    folder.good(line);
+    let undisturbed = folder.bytes("out.png");
+    let run = cramped(&folder, &format!("{line} --checkpoint 0.001"));
+    assert_eq!(run.code, Some(0), "{run:?}");
+    assert!(run.stderr.contains("warning: cannot write out.png.checkpoint"), "{run:?}");
+    assert!(folder.bytes("out.png") == undisturbed);
+    assert_eq!(folder.names(), ["out.png", "scene.xml"]);
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn a_device_is_no_place_for_a_picture() {

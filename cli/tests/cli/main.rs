@@ -14,6 +14,8 @@ mod help;
 #[cfg(unix)]
 mod interrupt;
 mod layers;
+#[cfg(target_os = "linux")]
+mod memory;
 mod output_range;
 mod parts;
 mod paths;

@@ -1,7 +1,9 @@
 //! Where the files of a scene are: on the disk, or in memory.
 
+use core::hint::black_box;
 use std::borrow::ToOwned;
 use std::collections::{BTreeMap, BTreeSet};
+use std::format;
 use std::fs::{self, File};
 use std::io::{self, BufReader, Cursor, ErrorKind, Read, Seek, SeekFrom};
 use std::path::{Component, Path, PathBuf};
@@ -62,6 +64,7 @@ impl Files {
             None => {
                 let file = File::open(path)?;
                 let bytes = file.metadata()?.len();
+                room_for(bytes.saturating_mul(MADE_OF_A_BYTE))?;
                 (Opened::Disk(file), bytes)
             }
             Some(files) => {
@@ -97,6 +100,24 @@ impl Files {
             Some(files) => find(files, path).map(|_| plain(path)),
         }
     }
+}
+
+/// Bytes that become of one in a file, or more: meshes of large scenes take twice the room of a binary PLY.
+const MADE_OF_A_BYTE: u64 = 2;
+
+/// Asks for memory as a whole, and gives it back: what is not granted now would end the program later.
+///
+/// # Errors
+/// When there is less.
+pub(super) fn room_for(bytes: u64) -> io::Result<()> {
+    let mut probe = Vec::<u8>::new();
+    let granted = usize::try_from(bytes).is_ok_and(|bytes| probe.try_reserve_exact(bytes).is_ok());
+    black_box(&probe);
+    if granted {
+        return Ok(());
+    }
+    let what = format!("it needs {} MiB of memory, more than there is", bytes >> 20);
+    Err(io::Error::new(ErrorKind::OutOfMemory, what))
 }
 
 /// A file that is open.
@@ -172,6 +193,14 @@ mod tests {
         assert_eq!((read("x.ply"), read("z.ply"), read("")), (None, None, None));
         assert!(files.has(Path::new("../top.xml")) && !files.has(Path::new("Top.xml")));
         assert_eq!(files.canonical(Path::new("a/../top.xml")), Some(PathBuf::from("top.xml")));
+    }
+
+    #[test]
+    fn memory_that_no_machine_has_is_not_granted() {
+        assert!(room_for(1 << 10).is_ok());
+        for bytes in [u64::MAX, 1 << 60] {
+            assert_eq!(room_for(bytes).unwrap_err().kind(), ErrorKind::OutOfMemory);
+        }
     }
 
     #[test]

@@ -14,6 +14,7 @@ pub(super) use texels::read_texels_from;
 use crate::Rgb;
 use crate::build::Image;
 use crate::load::Files;
+use crate::load::files::room_for;
 use crate::num;
 use ::image::{DynamicImage, ImageReader, Limits};
 use std::path::Path;
@@ -88,7 +89,7 @@ fn check_size(width: u32, height: u32, bytes: u64) -> Result<(), ImageError> {
         n if n > bytes.saturating_mul(MOST_TEXELS_PER_BYTE) => {
             Err(ImageError::Short { width, height, bytes })
         }
-        _ => Ok(()),
+        n => Ok(room_for(n * 12)?),
     }
 }
 
