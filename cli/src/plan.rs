@@ -191,7 +191,7 @@ fn check_lights(description: &Description, lights: &[AnyLight<'_>]) -> Result<()
         || description.objects.iter().any(|o| o.emission.is_some());
     let what = if meant { "every light of the scene is dark" } else { "the scene has no lights" };
     Err(Failure::new(format!("{what}: the picture would be black"))
-        .tip("give the scene an <emitter> that shines, or use --technique occlusion, which needs no light"))
+        .tip("give the scene a light that shines, or use --technique occlusion, which needs no light"))
 }
 
 impl Plan {

@@ -17,7 +17,7 @@ use crate::report::{Report, Seconds};
 use crate::save::Saved;
 use crate::scene::{self, Found};
 use crate::terminal;
-use crate::tiles::{self, Stored};
+use crate::tiles::{self, Part, Stored};
 use halflight::build::{Description, SceneBuffers};
 use halflight::estimate::{Job, LayeredPixel, PixelStats};
 use halflight::light::Emitter;
@@ -90,6 +90,7 @@ fn finish<P: Saved + Stored>(
     keeps_parts: bool,
 ) -> Result<Exit, Failure> {
     let keeper = keeping::keeper(args, prepared, to)?;
+    prepared.warn_of_empty_parts(args);
     let start = Instant::now();
     let rendered = pool.install(|| render::<P>(args, prepared, &keeper))?;
     prepared.seconds.render = start.elapsed().as_secs_f64();
@@ -103,6 +104,7 @@ fn finish<P: Saved + Stored>(
         ));
     }
     prepared.warn_of_missed(&rendered);
+    prepared.warn_of_the_dark(args, &rendered);
     let mut report = report(args, prepared, &rendered, pool.current_num_threads());
     let start = Instant::now();
     if let Destination::Picture(files) = to {
@@ -141,6 +143,9 @@ fn without_effect(args: &RenderArgs, prepared: &Prepared) -> Vec<&'static str> {
     ];
     asked.into_iter().filter(|(in_vain, _)| *in_vain).map(|(_, text)| text).collect()
 }
+
+/// The share of black pixels that nobody wants.
+const DARK: f64 = 0.99;
 
 /// Bytes of a thread's stack: tiles are large where nothing is optimised away.
 const STACK: usize = 16 << 20;
@@ -244,6 +249,31 @@ impl Prepared {
             let target = percent(target);
             self.warn(format!(
                 "{missed} of {all} did not reach {target} with {most} samples each; --max-spp allows more"
+            ));
+        }
+    }
+
+    /// Says that there are more parts than tiles.
+    fn warn_of_empty_parts(&mut self, args: &RenderArgs) {
+        let side = driver::side(self.goal);
+        let tiles = tiles::places(self.film.crop(), side, Part::WHOLE).count();
+        if let Some(part) = args.part.filter(|part| part.of as usize > tiles) {
+            self.warn(format!(
+                "only {tiles} of {} parts can hold anything: the picture has {} of {side}×{side} pixels; more \
+                 parts are of no use",
+                part.of,
+                counted(tiles as u64, "tile"),
+            ));
+        }
+    }
+
+    /// Says that next to nothing is to be seen.
+    fn warn_of_the_dark<P: Stored>(&mut self, args: &RenderArgs, rendered: &Rendered<P>) {
+        let share = rendered.dark() as f64 / rendered.area().max(1) as f64;
+        if args.part.is_none() && share > DARK {
+            self.warn(format!(
+                "{} of the pixels are black: hardly any light reaches what the camera sees",
+                percent(share)
             ));
         }
     }

@@ -244,6 +244,11 @@ impl<P: Pixel> Rendered<P> {
         self.stats().map(|p| u64::from(p.rejected())).sum()
     }
 
+    /// Pixels without any light.
+    pub(crate) fn dark(&self) -> u64 {
+        self.stats().filter(|p| p.mean().is_black()).count() as u64
+    }
+
     /// The window's pixels, row by row, through `value`.
     pub(crate) fn pixels<T: Clone + Default>(&self, value: impl Fn(&P) -> T) -> Vec<T> {
         let mut all = vec![T::default(); self.crop.area()];

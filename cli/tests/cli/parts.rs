@@ -178,3 +178,26 @@ fn more_parts_than_tiles_are_no_harm() {
     folder.good("render scene.xml -o once.exr");
     assert!(folder.bytes("merged.exr") == folder.bytes("once.exr"));
 }
+
+#[test]
+fn more_parts_than_tiles_are_warned_of() {
+    let folder = Folder::new();
+    let run = folder.run("render scene.xml --width 60 --height 40 --part 5/9 -o 5.part --spp 1");
+    assert_eq!(run.code, Some(0), "{run:?}");
+    assert!(
+        run.stderr.contains("only 4 of 9 parts can hold anything: the picture has 4 tiles of 32×32"),
+        "{run:?}"
+    );
+    let run = folder.run("render scene.xml --width 60 --height 40 --part 1/4 -o 1.part --spp 1");
+    assert!(!run.stderr.contains("hold anything"), "{run:?}");
+}
+
+#[test]
+fn a_picture_without_light_is_warned_of() {
+    let folder = Folder::with_change(
+        "origin=\"0, 2, 6\" target=\"0, 0.8, 0\"",
+        "origin=\"0, -2, 6\" target=\"0, -3, 0\"",
+    );
+    let run = folder.run("render scene.xml -o out.png --spp 1");
+    assert!(run.stderr.contains("of the pixels are black"), "{run:?}");
+}
