@@ -47,14 +47,15 @@ fn a_mesh_and_a_tree_that_do_not_fit_are_refused() {
     let xml = r#"<scene version="3.0.0"><emitter type="constant"/>
         <shape type="obj"><string name="filename" value="grid.obj"/></shape></scene>"#;
     let folder = Folder::with_scene(xml);
-    fs::write(folder.path("grid.obj"), grid(500)).unwrap();
+    fs::write(folder.path("grid.obj"), grid(700)).unwrap();
     let line = "render scene.xml --threads 1 --width 8 --height 8 --spp 1 -o out.png --quiet";
     let whole = run(&folder, 1_000_000, line);
     assert_eq!(whole.code, Some(0), "{whole:?}");
     fs::remove_file(folder.path("out.png")).unwrap();
-    let refused = run(&folder, 110_000, line);
+    // Above what the program and a thread take (100 MiB), and below what it comes to with the tree.
+    let refused = run(&folder, 230_000, line);
     assert_eq!(refused.code, Some(2), "{refused:?}");
-    assert!(refused.stderr.contains("the tree over 498 002 triangles needs about 99.7 MiB"), "{refused:?}");
+    assert!(refused.stderr.contains("the tree over 977 202 triangles needs about 196 MiB"), "{refused:?}");
     assert_eq!(folder.names(), ["grid.obj", "scene.xml"]);
 }
 
