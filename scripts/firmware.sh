@@ -3,6 +3,7 @@
 #
 #   scripts/firmware.sh run TARGET     render on a machine; fails unless the pixels are those of this one
 #   scripts/firmware.sh footprint      flash and stack beside tests/firmware/budget.txt
+#   scripts/firmware.sh stacks         stack of each entry point
 #   scripts/firmware.sh counts         instructions for each sample, by density
 #
 # TARGET: thumbv7em-none-eabihf, thumbv6m-none-eabi or riscv32imac-unknown-none-elf.
@@ -88,6 +89,11 @@ footprint() {
     fi
 }
 
+stacks() {
+    for_target $m4f build --profile tiny --features small,stack --bin stacks
+    qemu -kernel "$CARGO_TARGET_DIR/$m4f/tiny/stacks"
+}
+
 counts() {
     for_target $m4f build --features counts --bin counts
     qemu -icount shift=0 -kernel "$CARGO_TARGET_DIR/$m4f/release/counts"
@@ -96,9 +102,10 @@ counts() {
 case ${1:-} in
     run) run "${2:?TARGET}" ;;
     footprint) footprint ;;
+    stacks) stacks ;;
     counts) counts ;;
     *)
-        sed -n '2,8p' "$0" >&2
+        sed -n '2,9p' "$0" >&2
         exit 2
         ;;
 esac

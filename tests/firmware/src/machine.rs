@@ -17,7 +17,7 @@ mod arm {
 
     /// Bytes of stack that `f` and what it calls have used: what lies below is painted before.
     #[inline(never)]
-    pub fn stack_of(f: fn()) -> usize {
+    pub fn stack_of(f: impl FnOnce()) -> usize {
         let top = cortex_m::register::msp::read() as usize;
         let mut place = addr_of_mut!(_stack_end);
         while (place as usize) < top - 32 {

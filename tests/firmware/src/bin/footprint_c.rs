@@ -15,4 +15,7 @@ fn main() -> ! {
     }
 }
 
+#[cfg(not(feature = "stack"))]
+halflight_firmware::nothing_panics!();
+#[cfg(feature = "stack")]
 halflight_firmware::panics_end!();
