@@ -29,7 +29,7 @@ build() {
     bytes=$(gzip -9c "$folder/halflight_bg.wasm" | wc -c)
     echo "$folder: module of $((bytes / 1024)) KiB, gzipped"
 }
-build "$out" --no-default-features --features small
+build "$out" --no-default-features --features shared
 if [ "$bytes" -gt $((300 * 1024)) ]; then
     echo "build-www: the page's module must not be larger than 300 KiB" >&2
     exit 1

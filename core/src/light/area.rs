@@ -161,7 +161,7 @@ impl<S: SampledShape, R: SurfaceRadiance> AreaLight<S, R> {
     }
 
     /// The density over what `from` sees, for several questions.
-    #[cfg(not(feature = "small"))]
+    #[cfg(not(feature = "shared"))]
     pub(super) fn density(
         &self,
         from: &Receiver,
@@ -171,7 +171,7 @@ impl<S: SampledShape, R: SurfaceRadiance> AreaLight<S, R> {
     }
 
     /// The density over what `from` sees, worked out anew for each question.
-    #[cfg(feature = "small")]
+    #[cfg(feature = "shared")]
     pub(super) fn density<'s>(
         &'s self,
         from: &'s Receiver,
@@ -214,8 +214,8 @@ impl<S: SampledShape, R: SurfaceRadiance> Emitter for AreaLight<S, R> {
     }
 
     /// `E = L` times the projected solid angle, when the radiance is the same everywhere.
-    #[cfg_attr(not(feature = "small"), inline)]
-    #[cfg_attr(feature = "small", inline(never))]
+    #[cfg_attr(not(feature = "shared"), inline)]
+    #[cfg_attr(feature = "shared", inline(never))]
     fn unshadowed_irradiance(&self, from: &Receiver) -> Option<Rgb> {
         let irradiance = self.radiance.uniform()? * self.shape.projected_solid_angle(from, self.sides)?;
         irradiance.is_finite().then_some(irradiance)
@@ -250,7 +250,7 @@ pub(super) enum Question {
     /// The density of a direction; how far it goes does not matter.
     Density(SurfaceSample),
     /// Whether anything is seen at all.
-    #[cfg(feature = "small")]
+    #[cfg(feature = "shared")]
     Seen,
 }
 
@@ -271,7 +271,7 @@ pub(super) struct Answer {
     pub(super) pdf_solid_angle: f32,
 }
 
-#[cfg(feature = "small")]
+#[cfg(feature = "shared")]
 impl Answer {
     /// To whether anything is seen.
     const SEEN: Self = {
@@ -281,9 +281,9 @@ impl Answer {
 }
 
 /// Answers a question about a shape: in line, where the code of each density is made for its use, or with
-/// feature `small` out of line, where a shape has the code of each once, whatever it emits.
-#[cfg_attr(not(feature = "small"), inline(always))]
-#[cfg_attr(feature = "small", inline(never))]
+/// feature `shared` out of line, where a shape has the code of each once, whatever it emits.
+#[cfg_attr(not(feature = "shared"), inline(always))]
+#[cfg_attr(feature = "shared", inline(never))]
 fn ask<S: SampledShape>(
     shape: &S,
     from: &Receiver,
@@ -305,12 +305,12 @@ struct Asked<'a, S> {
 impl<S: SampledShape> UseView<S::View> for Asked<'_, S> {
     type Output = Answer;
 
-    #[cfg_attr(not(feature = "small"), inline(always))]
+    #[cfg_attr(not(feature = "shared"), inline(always))]
     fn with<V: SurfaceView>(self, view: V, _: impl FnOnce(V) -> S::View) -> Option<Answer> {
         let (sample, is_drawn) = match self.question {
             Question::Draw(u) => (view.sample(u)?, true),
             Question::Density(sample) => (sample, false),
-            #[cfg(feature = "small")]
+            #[cfg(feature = "shared")]
             Question::Seen => return Some(Answer::SEEN),
         };
         let SurfaceSample { at, wi, .. } = &sample;
@@ -325,24 +325,24 @@ impl<S: SampledShape> UseView<S::View> for Asked<'_, S> {
 }
 
 /// A density that is worked out for each question.
-#[cfg(feature = "small")]
+#[cfg(feature = "shared")]
 struct Again<'a, S, R> {
     light: &'a AreaLight<S, R>,
     from: &'a Receiver,
     method: SurfaceDensity,
 }
 
-#[cfg(feature = "small")]
+#[cfg(feature = "shared")]
 impl<S, R> Clone for Again<'_, S, R> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-#[cfg(feature = "small")]
+#[cfg(feature = "shared")]
 impl<S, R> Copy for Again<'_, S, R> {}
 
-#[cfg(feature = "small")]
+#[cfg(feature = "shared")]
 impl<S: SampledShape, R: SurfaceRadiance> SurfaceView for Again<'_, S, R> {
     fn sample(&self, u: [f32; 2]) -> Option<SurfaceSample> {
         self.light.ask(self.from, self.method, Question::Draw(u)).map(|answer| answer.sample)
