@@ -96,8 +96,9 @@ impl Files {
     }
 }
 
-/// Standard error of the mean per channel, as of so many independent samples; those of other sequences do
-/// better.
+/// Standard error of the mean per channel, as of so many independent samples. Those of other sequences do
+/// better, by how much a pixel's own samples do not tell: over ten scenes of 96×72 pixels the root mean square of
+/// the true errors was 0.3 to 0.8 of this with 64 samples (median 0.45), and 0.3 to 0.6 with 256.
 fn standard_error(pixel: &PixelStats) -> Rgb {
     (pixel.variance() / pixel.count().max(1) as f32).map(halflight::num::sqrt)
 }

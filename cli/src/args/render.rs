@@ -47,8 +47,9 @@ pub(crate) struct RenderArgs {
     #[arg(long, value_enum, value_name = "WHETHER", default_value_t)]
     pub(crate) adaptive: Adaptive,
 
-    /// Write layers beside the radiance, into .exr: error.R .G .B (standard error), samples, albedo.R .G
-    /// .B, N.X .Y .Z (normal), Z (depth), visibility (fraction of the light that is seen)
+    /// Write layers beside the radiance, into .exr: error.R .G .B (standard error of so many independent
+    /// samples: two or three times the true one), samples, albedo.R .G .B, N.X .Y .Z (normal), Z (depth),
+    /// visibility (fraction of the light that is seen)
     #[arg(long)]
     pub(crate) layers: bool,
 

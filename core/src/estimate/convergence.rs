@@ -214,6 +214,10 @@ impl Convergence {
     }
 
     /// The error of the picture; without pixels before the second sample.
+    ///
+    /// Where a few pixels hold most of the error, as those at edges of lamps do, what they have seen so far says
+    /// little: of 162 pictures of the peers' scenes and the built-in ones with 16 to 512 samples, the interval
+    /// held the true error of 112. An adaptive picture knows where lamps are, and its interval held 68 of 72.
     #[must_use]
     pub fn estimate(&self) -> ErrorEstimate {
         let Some(last) = self.doublings[0] else { return ErrorEstimate::default() };
