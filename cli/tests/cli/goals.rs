@@ -95,9 +95,10 @@ fn more_samples_than_fit_sixteen_bits_go_on_converging() {
     };
     render("a.exr", 0);
     render("b.exr", 1);
-    // The two are as far apart as the errors of both, if they are independent.
+    // The two are as far apart as the errors of both, if they are independent; so few pixels may be a good deal
+    // better than what is asked for, since samples are doubled.
     let ratio = (0.5 * relmse(&folder, "a.exr", "b.exr")).sqrt() / 5e-5;
-    assert!((0.3..1.3).contains(&ratio), "{ratio}");
+    assert!((0.2..1.3).contains(&ratio), "{ratio}");
 }
 
 #[test]
