@@ -57,7 +57,7 @@ fn files_can_be_dropped_on_the_page() -> Res<()> {
         page.render(48, 2)?;
         page.drop_file(&broken)?;
         page.wait("document.getElementById('message').classList.contains('bad')")?;
-        assert!(page.text("message")?.contains("broken.xml:2: "), "{}", page.text("message")?);
+        assert!(page.text("message")?.contains("broken.xml:2:8: "), "{}", page.text("message")?);
         assert_eq!(page.run("return document.getElementById('drop').hidden")?, true);
         // What was there before is still shown.
         page.render(48, 3)
