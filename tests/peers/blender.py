@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """CPU time until the error of a picture is what one wants, by Cycles, with its light tree; direct light only.
 
-    python blender.py --scenes FOLDER --references FOLDER --scene many
+    python blender.py --scenes FOLDER --references FOLDER --scene rect
 
 Wants `bpy` (Blender as a Python module) and the references of time_to.py. For each scene and each error
 (relMSE, as there), samples per pixel are doubled until the error is reached; the CPU seconds are those of
@@ -73,6 +73,14 @@ def linked(name, data):
     return thing
 
 
+def add_black(name, to_world, make):
+    """What a lamp hides: Blender's own hide nothing, and are not there from behind."""
+    make()
+    thing = bpy.context.object
+    thing.name, thing.matrix_world = name, to_world
+    thing.data.materials.append(matte((0, 0, 0)))
+
+
 def add_light(node, radiance):
     """A lamp of that radiance: Blender wants its power (W)."""
     kind, strongest = node.get("type"), max(radiance)
@@ -83,6 +91,8 @@ def add_light(node, radiance):
         thing.location, radius = ball(node)
         lamp.shadow_soft_size, lamp.use_soft_falloff = radius, False
         lamp.energy = strongest * math.pi * 4 * math.pi * radius**2
+        inside = Matrix.Translation(thing.location)
+        add_black("ball", inside, lambda: bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=5, radius=0.999 * radius))
         return
     to_world = place(node)
     width, height = (2 * to_world.col[axis].xyz.length for axis in (0, 1))
@@ -92,22 +102,36 @@ def add_light(node, radiance):
     # Blender's lamps shine along −z, Mitsuba's along +z.
     turned = to_world.to_3x3().normalized() @ Matrix.Diagonal((1, -1, -1))
     thing.matrix_world = Matrix.Translation(to_world.translation) @ turned.to_4x4()
+    behind = Matrix.Translation(-1e-4 * width * to_world.col[2].xyz.normalized()) @ to_world
+    if kind == "rectangle":
+        add_black("back", behind, lambda: bpy.ops.mesh.primitive_plane_add(size=2))
+    else:
+        add_black("back", behind, lambda: bpy.ops.mesh.primitive_circle_add(vertices=256, fill_type="NGON"))
 
 
 def material(bsdf):
+    if bsdf.get("type") == "diffuse":
+        return matte(colour(bsdf))
+    made, shader = shaded("ShaderNodeBsdfAnisotropic", colour(bsdf))
+    shader.distribution = "GGX"
+    shader.inputs["Roughness"].default_value = math.sqrt(float(bsdf.find("float").get("value")))
+    return made
+
+
+def matte(reflectance):
+    return shaded("ShaderNodeBsdfDiffuse", reflectance)[0]
+
+
+def shaded(kind, reflectance):
+    """A material of one BSDF, and that."""
     made = bpy.data.materials.new("material")
     made.use_nodes = True
     nodes = made.node_tree.nodes
     nodes.clear()
-    if bsdf.get("type") == "diffuse":
-        shader = nodes.new("ShaderNodeBsdfDiffuse")
-    else:
-        shader = nodes.new("ShaderNodeBsdfAnisotropic")
-        shader.distribution = "GGX"
-        shader.inputs["Roughness"].default_value = math.sqrt(float(bsdf.find("float").get("value")))
-    shader.inputs["Color"].default_value = (*colour(bsdf), 1)
+    shader = nodes.new(kind)
+    shader.inputs["Color"].default_value = (*reflectance, 1)
     made.node_tree.links.new(shader.outputs[0], nodes.new("ShaderNodeOutputMaterial").inputs["Surface"])
-    return made
+    return made, shader
 
 
 def add_surface(node, folder):

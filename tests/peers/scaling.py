@@ -48,7 +48,9 @@ def ground(folder, triangles):
         x, z = 16 * u - 8, 16 * v - 8
         return x, 0.35 * np.sin(1.7 * x) * np.cos(1.3 * z) + 0.12 * np.sin(7 * x + 2) * np.sin(6 * z), z
 
-    gen.write_ply(os.path.join(folder, "ground.ply"), *gen.surface(point, side, side))
+    vertices, faces = gen.surface(point, side, side)
+    # Seen from above, corners go round counter-clockwise.
+    gen.write_ply(os.path.join(folder, "ground.ply"), vertices, faces[:, ::-1])
     lamp = gen.shape("rectangle", gen.light(12, 11, 9), gen.facing_down(1, 0, 4.5, 0))
     return write(folder, gen.mesh("ground.ply", gen.diffuse(0.6, 0.6, 0.6)) + lamp)
 

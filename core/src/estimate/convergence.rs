@@ -21,8 +21,8 @@ pub(super) const RATE: (f64, f64) = (2.0, 8.0);
 pub(super) const PRIOR_RATE: f64 = 2.4;
 
 /// Relative standard deviation of an estimate of relMSE, beside the spread of the pixels: the rate is not
-/// known, and the estimate is cautious. With it the interval held the true error of 95 in 100 pictures of the
-/// same scenes; with 0.2, of 82.
+/// known, and the estimate is cautious. With it the interval held the true error of 412 in 450 pictures of the
+/// same scenes.
 const RATE_DOUBT: f64 = 0.27;
 
 /// Variance of the squared error of a pixel in units of its squared mean: that of a χ² variable is 2,
