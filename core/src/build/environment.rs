@@ -1,18 +1,17 @@
 //! The tables by which directions toward an environment map are drawn.
 
+mod moments;
+
 use super::Image;
 use crate::Rgb;
 use crate::light::environment::grid::Grid;
+use crate::light::environment::sky::MOST_LEAVES;
 use crate::light::environment::table::Levels;
-use crate::light::{EnvironmentDensity, EnvironmentTable, Lobe};
+use crate::light::{DrawsBy, EnvironmentDensity, EnvironmentTable, Lobe};
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 use core::mem::size_of_val;
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec3};
 use std::vec::Vec;
-
-/// Most nodes of the level that is the last to know the receiver's cosine. Each more halves what its
-/// blocks waste below the horizon, and adds a step to every sample.
-const BLOCKS: usize = 64 * 32;
 
 /// Powers of two by which luminance may be scaled, so that neither it nor its square leaves `f32`.
 const MAX_GAIN: i32 = 100;
@@ -22,22 +21,23 @@ const MAX_GAIN: i32 = 100;
 pub struct EnvironmentTables {
     masses: Vec<f32>,
     lobes: Vec<Lobe>,
+    moments: Vec<[Vec3; 3]>,
+    draws_by: DrawsBy,
     total: f32,
     gain: f32,
     offset: f32,
 }
 
 impl EnvironmentTables {
-    /// Tables for drawing directions toward `image`. Those of [`EnvironmentDensity::Cosine`] are
-    /// empty, and so are those of a black map and of one that is not a picture. Each sum is formed in
-    /// double precision.
+    /// Tables for drawing directions toward `image`. Those of a black map are empty, and so are those of
+    /// one that is not a picture. Each sum is formed in double precision.
     #[must_use]
     pub fn new(image: &Image, density: EnvironmentDensity) -> Self {
         let density = density.resolved();
         let largest = image.texels.iter().fold(0.0, |m: f32, t| m.max(t.luminance()));
         let count = u64::from(image.width) * u64::from(image.height);
         let usable = largest > 0.0 && largest.is_finite() && image.texels.len() as u64 == count;
-        if density == EnvironmentDensity::Cosine || !usable {
+        if !usable {
             return Self::default();
         }
         let exponent = (-libm::ilogb(f64::from(largest))).clamp(-MAX_GAIN, MAX_GAIN);
@@ -52,9 +52,13 @@ impl EnvironmentTables {
         }
         let levels = Levels::new(&cells.grid);
         tables.masses = cells.pyramid(&levels, &tables);
-        if density == EnvironmentDensity::Product {
-            tables.lobes = cells.lobes(&levels, &tables);
-        }
+        tables.lobes = cells.lobes(&levels, &tables);
+        tables.moments = moments::of_nodes(image, &cells.grid, &levels, tables.lobes.len());
+        tables.draws_by = match density {
+            EnvironmentDensity::Cosine => DrawsBy::Cosine,
+            EnvironmentDensity::Luminance | EnvironmentDensity::Compensated => DrawsBy::Importance,
+            _ => DrawsBy::Product,
+        };
         tables
     }
 
@@ -64,6 +68,8 @@ impl EnvironmentTables {
         (self.total > 0.0).then_some(EnvironmentTable {
             masses: &self.masses,
             lobes: &self.lobes,
+            moments: &self.moments,
+            draws_by: self.draws_by,
             total: self.total,
             gain: self.gain,
             offset: self.offset,
@@ -73,7 +79,7 @@ impl EnvironmentTables {
     /// Bytes that they take.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        size_of_val(&*self.masses) + size_of_val(&*self.lobes)
+        size_of_val(&*self.masses) + size_of_val(&*self.lobes) + size_of_val(&*self.moments)
     }
 
     /// As the core computes it, to the last bit.
@@ -81,6 +87,8 @@ impl EnvironmentTables {
         let table = EnvironmentTable {
             masses: &[],
             lobes: &[],
+            moments: &[],
+            draws_by: self.draws_by,
             total: self.total,
             gain: self.gain,
             offset: self.offset,
@@ -146,7 +154,7 @@ impl Cells<'_> {
 
     /// Where the light of the coarse nodes comes from.
     fn lobes(&self, levels: &Levels, tables: &EnvironmentTables) -> Vec<Lobe> {
-        let Some(leaf) = (1..levels.top).find(|&level| levels.len(level) <= BLOCKS) else {
+        let Some(leaf) = (1..levels.top).find(|&level| levels.len(level) <= MOST_LEAVES) else {
             return Vec::new();
         };
         let [columns, rows] = levels.size(leaf);

@@ -36,7 +36,9 @@ pub use constant::Constant;
 pub use density::SurfaceDensity;
 pub use directional::Directional;
 pub use distant::DistantDisk;
-pub use environment::{EnvironmentDensity, EnvironmentMap, EnvironmentTable, Lobe};
+pub use environment::{
+    ClearSky, DrawsBy, EnvironmentDensity, EnvironmentMap, EnvironmentTable, Lobe, SkyPart, SkyView,
+};
 pub use error::LightError;
 pub use luminance::LuminanceGrid;
 pub use painted::{PaintedLight, PaintedRectangle};
@@ -149,6 +151,16 @@ pub trait Emitter: Copy {
     /// True for a light that surrounds the scene.
     fn is_environment(&self) -> bool {
         false
+    }
+
+    /// True for a light that hardly draws directions toward a part of it, and leaves that to the BSDF's.
+    fn leaves_to_bsdf(&self) -> bool {
+        false
+    }
+
+    /// The picture of a light that is one.
+    fn environment_map(&self) -> Option<&EnvironmentMap<'_>> {
+        None
     }
 
     /// True for a light that no ray meets by chance.
@@ -310,6 +322,14 @@ impl Emitter for AnyLight<'_> {
     #[inline]
     fn is_environment(&self) -> bool {
         each_light!(self, l => l.is_environment())
+    }
+
+    fn leaves_to_bsdf(&self) -> bool {
+        each_light!(self, l => l.leaves_to_bsdf())
+    }
+
+    fn environment_map(&self) -> Option<&EnvironmentMap<'_>> {
+        each_light!(self, l => l.environment_map())
     }
 
     #[inline]

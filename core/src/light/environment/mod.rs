@@ -2,10 +2,12 @@
 
 mod density;
 pub(crate) mod grid;
+pub(crate) mod sky;
 pub(crate) mod table;
 
 pub use density::EnvironmentDensity;
-pub use table::{EnvironmentTable, Lobe};
+pub use sky::{ClearSky, SkyPart, SkyView};
+pub use table::{DrawsBy, EnvironmentTable, Lobe};
 
 use super::{Density, Emitter, LightError, LightSample, Receiver, SurfaceDensity};
 use crate::Rgb;
@@ -14,7 +16,7 @@ use crate::num;
 use crate::warp;
 use glam::{Mat3, Vec3};
 use grid::{Grid, Place};
-use table::{Chosen, Levels};
+use table::{Chosen, Levels, Plain, Weigh};
 
 /// How far a transform may be from a rotation.
 const RIGID: f32 = 1e-4;
@@ -98,7 +100,7 @@ impl<'a> EnvironmentMap<'a> {
         &self,
         table: &EnvironmentTable<'_>,
         levels: &Levels,
-        normal: Vec3,
+        by: &impl Weigh,
         mut u: [f32; 2],
     ) -> Option<(Vec3, Chosen)> {
         let column = num::TAU / self.grid.width as f32;
@@ -106,7 +108,7 @@ impl<'a> EnvironmentMap<'a> {
             let [a, b, c, d] = self.corners(x, y).map(|texel| table.importance(texel));
             0.25 * (a + b + c + d) * (column * self.grid.drop(y))
         };
-        let chosen = table.choose(levels, normal, &mut u, mass)?;
+        let chosen = table.choose(levels, by, &mut u, mass)?;
         let [x, y] = chosen.cell;
         let [a, b, c, d] = self.corners(x, y).map(|texel| table.importance(texel));
         let tau = linear(a + b, c + d, u[1]);
@@ -117,14 +119,14 @@ impl<'a> EnvironmentMap<'a> {
     /// A sample by the table. What is answered about it is answered for the direction as it was
     /// rounded, which may lie in the next cell.
     #[inline]
-    fn sample_by(&self, table: &EnvironmentTable<'_>, from: &Receiver, u: [f32; 2]) -> Option<LightSample> {
-        let (levels, normal) = (Levels::new(&self.grid), self.to_local * from.normal);
-        let (drawn, chosen) = self.draw(table, &levels, normal, u)?;
+    fn sample_by(&self, table: &EnvironmentTable<'_>, by: &impl Weigh, u: [f32; 2]) -> Option<LightSample> {
+        let levels = Levels::new(&self.grid);
+        let (drawn, chosen) = self.draw(table, &levels, by, u)?;
         let wi = self.to_local.transpose() * drawn;
         let local = self.to_local * wi;
         let place = self.grid.place(local);
         let cell = [place.x, place.y];
-        let scale = if cell == chosen.cell { chosen.scale } else { table.scale(&levels, normal, cell) };
+        let scale = if cell == chosen.cell { chosen.scale } else { table.scale(&levels, by, cell) };
         let pdf = self.density(table, &place, local, scale);
         (pdf > 0.0).then(|| escaping(wi, self.lookup(&place), pdf))
     }
@@ -196,8 +198,14 @@ impl Emitter for EnvironmentMap<'_> {
     /// By the table, or by the cosine about the receiver's normal, `cos θ / π` (sr⁻¹).
     #[inline]
     fn sample(&self, from: &Receiver, _: SurfaceDensity, u: [f32; 2]) -> Option<LightSample> {
-        if let Some(table) = &self.table {
-            return self.sample_by(table, from, u);
+        match &self.table {
+            Some(table) if table.draws_by == DrawsBy::Product => {
+                return self.sample_by(table, &(self.to_local * from.normal), u);
+            }
+            Some(table) if table.draws_by == DrawsBy::Importance => {
+                return self.sample_by(table, &Plain, u);
+            }
+            _ => {}
         }
         let wi = Frame::from_normal(from.normal).to_world(warp::cosine_hemisphere(u));
         let pdf = self.pdf_escaping(from, wi);
@@ -206,10 +214,17 @@ impl Emitter for EnvironmentMap<'_> {
 
     #[inline]
     fn pdf_escaping(&self, from: &Receiver, wi: Vec3) -> f32 {
-        let Some(table) = &self.table else { return warp::cosine_hemisphere_pdf(from.normal.dot(wi)) };
+        let Some(table) = self.table.as_ref().filter(|table| table.draws_by != DrawsBy::Cosine) else {
+            return warp::cosine_hemisphere_pdf(from.normal.dot(wi));
+        };
         let local = self.to_local * wi;
         let place = self.grid.place(local);
-        let scale = table.scale(&Levels::new(&self.grid), self.to_local * from.normal, [place.x, place.y]);
+        let (levels, cell) = (Levels::new(&self.grid), [place.x, place.y]);
+        let scale = if table.draws_by == DrawsBy::Product {
+            table.scale(&levels, &(self.to_local * from.normal), cell)
+        } else {
+            table.scale(&levels, &Plain, cell)
+        };
         self.density(table, &place, local, scale)
     }
 
@@ -220,6 +235,14 @@ impl Emitter for EnvironmentMap<'_> {
 
     fn is_environment(&self) -> bool {
         true
+    }
+
+    fn environment_map(&self) -> Option<&EnvironmentMap<'_>> {
+        Some(self)
+    }
+
+    fn leaves_to_bsdf(&self) -> bool {
+        self.table.is_some_and(|table| table.offset > 0.0)
     }
 
     /// `4π² R²` times the mean radiance.

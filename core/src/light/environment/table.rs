@@ -53,7 +53,7 @@ impl Lobe {
     /// Derived: along a parallel it is largest at the normal's own longitude, or else at an end; along
     /// a meridian it is `a cos θ + h sin θ`, largest at the normal's own angle or else at an end.
     #[inline]
-    fn largest_cosine(&self, normal: Vec3) -> f32 {
+    pub(super) fn largest_cosine(&self, normal: Vec3) -> f32 {
         let ([west, east], [north, south]) = (self.columns, self.rows);
         let level = Vec2::new(normal.x, normal.z);
         let within = west == east || (west.perp_dot(level) > 0.0 && level.perp_dot(east) > 0.0);
@@ -74,6 +74,52 @@ impl Lobe {
     }
 }
 
+/// What directions are drawn by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum DrawsBy {
+    /// The receiver's cosine.
+    Cosine,
+    /// The importance of the map.
+    #[default]
+    Importance,
+    /// Both; the cosine block by block.
+    Product,
+}
+
+/// How much a node counts for a receiver.
+pub(crate) trait Weigh {
+    /// Whether coarse nodes count by more than their mass.
+    const KNOWS_LOBES: bool;
+
+    /// Weight of the node with that index.
+    ///
+    /// * `mass` – its importance times solid angle
+    /// * `lobe` – of a coarse node
+    fn weight(&self, index: usize, mass: f32, lobe: Option<&Lobe>) -> f32;
+}
+
+/// By what it sends, wherever the receiver is.
+pub(crate) struct Plain;
+
+impl Weigh for Plain {
+    const KNOWS_LOBES: bool = false;
+
+    #[inline]
+    fn weight(&self, _: usize, mass: f32, _: Option<&Lobe>) -> f32 {
+        mass
+    }
+}
+
+/// By the cosine at a receiver with that normal, in the map's space.
+impl Weigh for Vec3 {
+    const KNOWS_LOBES: bool = true;
+
+    #[inline]
+    fn weight(&self, _: usize, mass: f32, lobe: Option<&Lobe>) -> f32 {
+        lobe.map_or(mass, |lobe| mass * lobe.cosine(*self))
+    }
+}
+
 /// What [`super::EnvironmentMap`] chooses directions by, borrowed; made by `EnvironmentTables` of
 /// the feature `build`.
 ///
@@ -84,9 +130,13 @@ pub struct EnvironmentTable<'a> {
     /// Importance times solid angle of the nodes, level by level from the whole map down to pairs of
     /// cells, each row by row.
     pub masses: &'a [f32],
-    /// For the coarse nodes, those that come first in `masses`, where their light comes from; empty
-    /// when the receiver's cosine is left out of the density.
+    /// For the coarse nodes, those that come first in `masses`, where their light comes from.
     pub lobes: &'a [Lobe],
+    /// For each of them the integral of the radiance times the direction, by channel (W m⁻²): its product
+    /// with a normal is the irradiance, where the whole node is above the horizon.
+    pub moments: &'a [[Vec3; 3]],
+    /// What directions are drawn by, where nothing is known of what hides the sky.
+    pub draws_by: DrawsBy,
     /// Importance times solid angle of the whole map; positive.
     pub total: f32,
     /// Brings the largest luminance near 1.
@@ -186,11 +236,14 @@ impl EnvironmentTable<'_> {
             && [self.total, self.gain].iter().all(|v| *v > 0.0 && v.is_finite())
             && usable(&self.offset)
             && lobes
+            && self.moments.len() == self.lobes.len()
+            && self.moments.iter().flatten().all(|m| m.is_finite())
     }
 
     /// Weights of the children of a node; `first` is the index of their level's first node.
     #[inline]
-    fn children(&self, [columns, rows]: [u32; 2], first: usize, [x, y]: [u32; 2], normal: Vec3) -> Four {
+    fn children<W: Weigh>(&self, size: [u32; 2], first: usize, [x, y]: [u32; 2], by: &W) -> Four {
+        let [columns, rows] = size;
         let weight = |dx: u32, dy: u32| {
             let (x, y) = (2 * x + dx, 2 * y + dy);
             if x >= columns || y >= rows {
@@ -198,23 +251,20 @@ impl EnvironmentTable<'_> {
             }
             let index = first + y as usize * columns as usize + x as usize;
             let mass = self.masses.get(index).copied().unwrap_or(0.0);
-            match self.lobes.get(index) {
-                Some(lobe) => mass * lobe.cosine(normal),
-                None => mass,
-            }
+            by.weight(index, mass, self.lobes.get(index).filter(|_| W::KNOWS_LOBES))
         };
         Four([weight(0, 0), weight(1, 0), weight(0, 1), weight(1, 1)])
     }
 
     /// Chooses a cell, and leaves in `u` what places a sample in it.
     ///
-    /// * `normal` – of the receiver, in the map's space
+    /// * `by` – how much nodes count
     /// * `cell` – importance times solid angle of a cell
     #[inline]
-    pub(crate) fn choose(
+    pub(crate) fn choose<W: Weigh>(
         &self,
         levels: &Levels,
-        normal: Vec3,
+        by: &W,
         u: &mut [f32; 2],
         cell: impl Fn([u32; 2]) -> f32,
     ) -> Option<Chosen> {
@@ -223,10 +273,10 @@ impl EnvironmentTable<'_> {
         for level in (1..levels.top).rev() {
             first += levels.len(level + 1);
             let size = levels.size(level);
-            let (child, share) = self.children(size, first, at, normal).choose(u)?;
+            let (child, share) = self.children(size, first, at, by).choose(u)?;
             at = [2 * at[0] + child[0], 2 * at[1] + child[1]];
             let index = first + at[1] as usize * size[0] as usize + at[0] as usize;
-            if index < self.lobes.len() {
+            if W::KNOWS_LOBES && index < self.lobes.len() {
                 probability *= share;
                 scale = probability / self.masses.get(index)?;
             }
@@ -246,18 +296,18 @@ impl EnvironmentTable<'_> {
 
     /// The factor from importance to density in a cell (sr⁻¹).
     ///
-    /// * `normal` – of the receiver, in the map's space
+    /// * `by` – how much nodes count
     #[inline]
-    pub(crate) fn scale(&self, levels: &Levels, normal: Vec3, cell: [u32; 2]) -> f32 {
+    pub(crate) fn scale<W: Weigh>(&self, levels: &Levels, by: &W, cell: [u32; 2]) -> f32 {
         let (mut first, mut scale, mut probability) = (0, 1.0 / self.total, 1.0);
         for level in (1..levels.top).rev() {
             first += levels.len(level + 1);
             let (size, at) = (levels.size(level), cell.map(|c| c >> level));
             let index = first + at[1] as usize * size[0] as usize + at[0] as usize;
-            if index >= self.lobes.len() {
+            if !W::KNOWS_LOBES || index >= self.lobes.len() {
                 break;
             }
-            let children = self.children(size, first, at.map(|c| c >> 1), normal);
+            let children = self.children(size, first, at.map(|c| c >> 1), by);
             probability *= children.probability(at.map(|c| c & 1));
             // A node without mass is never chosen.
             let mass = self.masses.get(index).filter(|_| probability > 0.0);
