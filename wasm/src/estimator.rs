@@ -2,7 +2,7 @@
 //! way to render.
 
 use halflight::Rgb;
-use halflight::estimate::{Arrival, Direct, Estimator, Known, Observer, Occlusion};
+use halflight::estimate::{Arrival, Direct, Estimator, Foreseen, Known, Observer, Occlusion};
 use halflight::geom::Ray;
 use halflight::glam::Vec3;
 use halflight::light::Emitter;
@@ -29,7 +29,7 @@ impl Estimator for Shown<'_> {
         observer: &mut impl Observer,
     ) -> Rgb {
         // Where nothing is known, the two are the same to the last bit.
-        self.observe_known(scene, Known::default(), ray, reach, sequence, observer)
+        self.observe_known(scene, Foreseen::default(), ray, reach, sequence, observer)
     }
 
     fn looks_ahead(&self) -> bool {
@@ -40,7 +40,7 @@ impl Estimator for Shown<'_> {
     fn observe_known<S: Shape, L: Emitter, M: Material, const STACK: usize>(
         &self,
         scene: &Scene<'_, S, L, M, STACK>,
-        known: Known,
+        known: Foreseen<'_>,
         ray: &Ray,
         reach: f32,
         sequence: &mut impl Sequence,
@@ -61,5 +61,14 @@ impl Estimator for Shown<'_> {
         wo: Vec3,
     ) -> bool {
         matches!(self, Self::Radiance(e) if e.is_smooth(scene, known, hit, wo))
+    }
+
+    fn uses_sky<S: Shape, L: Emitter, M: Material, const STACK: usize>(
+        &self,
+        scene: &Scene<'_, S, L, M, STACK>,
+        hit: &Interaction,
+        wo: Vec3,
+    ) -> bool {
+        matches!(self, Self::Radiance(e) if e.uses_sky(scene, hit, wo))
     }
 }

@@ -27,7 +27,6 @@ impl Description {
         match integrator {
             IntegratorDescription { light_samples: Some(0), .. } => Technique::Bsdf,
             IntegratorDescription { bsdf_samples: Some(0), .. } => Technique::Light,
-            _ if self.hides_a_sun() => Technique::Mis(heuristic),
             _ => Technique::Auto(heuristic),
         }
     }
@@ -44,6 +43,7 @@ impl Description {
         match technique {
             Technique::Mis(_) => EnvironmentDensity::Compensated,
             _ if self.portals.is_empty() && is_even() => EnvironmentDensity::Cosine,
+            Technique::Auto(_) if self.hides_a_sun() => EnvironmentDensity::Compensated,
             _ => EnvironmentDensity::Product,
         }
     }

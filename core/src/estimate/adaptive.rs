@@ -26,6 +26,7 @@ mod words;
 use super::convergence::{ErrorEstimate, PRIOR_RATE, RATE};
 use super::hidden::behind_samples;
 use super::lamps::Sighting;
+use super::sky::Sky;
 use super::{DifferenceSums, Known, Pixel, Target};
 use crate::film::PixelRect;
 use crate::num;
@@ -42,6 +43,12 @@ const SIDE: usize = (TILE / BLOCK) as usize;
 
 /// Blocks of a tile.
 pub(super) const BLOCKS: usize = SIDE * SIDE;
+
+/// Blocks along a side of a group, of whose sky is known the same: 8² pixels.
+const GROUP: usize = 4;
+
+/// Groups along a side of a tile.
+const GROUPS: usize = SIDE / GROUP;
 
 /// Doublings that a block remembers. The blocks that are refined most are those that changed most: the farther
 /// back, the more their changes tell of why they were chosen, and the less of convergence. With four, the rate
@@ -105,6 +112,7 @@ impl Block {
 pub struct AdaptiveTile {
     rect: PixelRect,
     blocks: [Block; BLOCKS],
+    skies: [Sky; GROUPS * GROUPS],
 }
 
 impl AdaptiveTile {
@@ -113,7 +121,8 @@ impl AdaptiveTile {
     pub fn new(rect: PixelRect) -> Self {
         let PixelRect { x0, y0, x1, y1 } = rect;
         let rect = PixelRect { x0, y0, x1: x1.min(x0 + TILE), y1: y1.min(y0 + TILE) };
-        let mut tile = Self { rect, blocks: [Block::default(); BLOCKS] };
+        let mut tile =
+            Self { rect, blocks: [Block::default(); BLOCKS], skies: [Sky::Unasked; GROUPS * GROUPS] };
         tile.blocks = array::from_fn(|i| {
             let pixels = tile.part(i).map_or(0, |part| part.area() as u32);
             Block { pixels, ..Block::default() }
@@ -133,6 +142,19 @@ impl AdaptiveTile {
         let (x, y) = (x0 + (block % SIDE) as u32 * BLOCK, y0 + (block / SIDE) as u32 * BLOCK);
         let part = PixelRect { x0: x, y0: y, x1: x1.min(x + BLOCK), y1: y1.min(y + BLOCK) };
         (x < x1 && y < y1).then_some(part)
+    }
+
+    /// The pixels of a group.
+    pub(super) fn group(&self, group: usize) -> PixelRect {
+        let PixelRect { x0, y0, x1, y1 } = self.rect;
+        let side = GROUP as u32 * BLOCK;
+        let (x, y) = (x0 + (group % GROUPS) as u32 * side, y0 + (group / GROUPS) as u32 * side);
+        PixelRect { x0: x, y0: y, x1: x1.min(x + side), y1: y1.min(y + side) }
+    }
+
+    /// What is known of the sky above a group.
+    pub(super) fn sky(&mut self, group: usize) -> &mut Sky {
+        &mut self.skies[group]
     }
 
     /// The blocks that are there.
@@ -299,6 +321,13 @@ impl AdaptiveTile {
 /// Which pixel of its block one is, by its place in the tile.
 const fn pixel_of_block(x: u32, y: u32) -> u32 {
     y % BLOCK * BLOCK + x % BLOCK
+}
+
+/// The blocks, group by group: the one at a place, and its group.
+pub(super) const fn in_groups(place: usize) -> (usize, usize) {
+    let (group, within) = (place / (GROUP * GROUP), place % (GROUP * GROUP));
+    let (x, y) = (group % GROUPS * GROUP + within % GROUP, group / GROUPS * GROUP + within / GROUP);
+    (y * SIDE + x, group)
 }
 
 /// A block and those around it, whether they are there or not.

@@ -8,7 +8,7 @@
 use super::gather::Gather;
 use super::known::Knowledge;
 use super::shading::Shading;
-use super::{Estimator, Heuristic, Known, Observer};
+use super::{Estimator, Foreseen, Heuristic, Known, Observer};
 use crate::Rgb;
 use crate::bsdf::Bsdf;
 use crate::choose::LightChoice;
@@ -114,13 +114,13 @@ impl Estimator for Direct<'_> {
     fn observe_known<S: Shape, L: Emitter, M: Material, const STACK: usize>(
         &self,
         scene: &Scene<'_, S, L, M, STACK>,
-        known: Known,
+        known: Foreseen<'_>,
         ray: &Ray,
         reach: f32,
         sequence: &mut impl Sequence,
         observer: &mut impl Observer,
     ) -> Rgb {
-        match known.first_hit(scene, ray, reach) {
+        match known.known().first_hit(scene, ray, reach) {
             Some(hit) => self.leaving(scene, &hit, -ray.direction, known, sequence, observer),
             None => scene.radiance_escaping(ray.direction),
         }
@@ -139,6 +139,18 @@ impl Estimator for Direct<'_> {
         }
         let bsdf = material.at(|| Vec2::ZERO);
         let shading = Shading::new(hit, &bsdf, wo, || scene.tangent(hit));
-        Gather::new(self, scene, &shading, known).is_smooth()
+        Gather::new(self, scene, &shading, Foreseen::from(known)).is_smooth()
+    }
+
+    fn uses_sky<S: Shape, L: Emitter, M: Material, const STACK: usize>(
+        &self,
+        scene: &Scene<'_, S, L, M, STACK>,
+        hit: &Interaction,
+        wo: Vec3,
+    ) -> bool {
+        let Some(material) = scene.materials().get(hit.material as usize) else { return false };
+        let bsdf = material.at(|| scene.uv(hit));
+        let shading = Shading::new(hit, &bsdf, wo, || scene.tangent(hit));
+        Gather::new(self, scene, &shading, ()).may_take_closed_form()
     }
 }

@@ -8,7 +8,7 @@ use crate::Rgb;
 use crate::bsdf::Bsdf;
 use crate::choose::LightChoice;
 use crate::geom::{Ray, offset_origin};
-use crate::light::{Density, Emitter};
+use crate::light::{Density, Emitter, LightSample, SkyView};
 use crate::material::Material;
 use crate::num::PI;
 use crate::scene::{Interaction, Scene};
@@ -48,15 +48,16 @@ struct Plan {
 impl Plan {
     /// How many samples of each kind a point gets.
     ///
-    /// * `wide` – whether a light may fill a part of a lobe of the BSDF that matters
+    /// * `diffuse` – whether the BSDF is
+    /// * `by_light` – whether directions toward the lights are enough, where the technique may choose
     #[inline]
-    fn new(direct: &Direct<'_>, diffuse: bool, wide: impl Fn() -> bool, light_to_meet: bool) -> Self {
+    fn new(direct: &Direct<'_>, diffuse: bool, by_light: impl Fn() -> bool, light_to_meet: bool) -> Self {
         let Direct { technique, light_samples, bsdf_samples, .. } = *direct;
         let (light, bsdf_samples, heuristic) = match technique {
             Technique::Light => (light_samples, 0, Heuristic::Power),
             Technique::Bsdf => (0, bsdf_samples, Heuristic::Power),
             Technique::Mis(h) => (light_samples, bsdf_samples, h),
-            Technique::Auto(h) | Technique::Control(h) if diffuse || !wide() => (light_samples.max(1), 0, h),
+            Technique::Auto(h) | Technique::Control(h) if by_light() => (light_samples.max(1), 0, h),
             Technique::Auto(h) | Technique::Control(h) => (light_samples, bsdf_samples, h),
         };
         // Where no ray can meet a light, none is sent.
@@ -98,8 +99,16 @@ impl<'g, S: Shape, L: Emitter, M: Material, K: Knowledge, const STACK: usize> Ga
         shading: &'g Shading<'g, M::Bsdf>,
         known: K,
     ) -> Self {
-        let wide = || fills_a_lobe(direct, scene, shading);
-        let plan = Plan::new(direct, shading.bsdf().is_diffuse(), wide, scene.has_light_to_meet());
+        let diffuse = shading.bsdf().is_diffuse();
+        let by_light = || {
+            if diffuse {
+                // Where the sky is known, nothing of it is left to the BSDF.
+                !scene.leaves_to_bsdf() || (known.sees_sky() && direct.choice == LightChoice::All)
+            } else {
+                !fills_a_lobe(direct, scene, shading)
+            }
+        };
+        let plan = Plan::new(direct, diffuse, by_light, scene.has_light_to_meet());
         Self { direct, scene, shading, known, plan }
     }
 
@@ -155,6 +164,9 @@ impl<'g, S: Shape, L: Emitter, M: Material, K: Knowledge, const STACK: usize> Ga
                 sum += reflected * draws as f32;
                 continue;
             }
+            if let Some(view) = self.sky(light) {
+                sum += self.of_clear_sky(view, observer) * draws as f32;
+            }
             for draw in 0..draws {
                 let u = sequence.point(dimension, draw, draws);
                 sum += self.toward(light, 1.0, u, observer);
@@ -175,9 +187,14 @@ impl<'g, S: Shape, L: Emitter, M: Material, K: Knowledge, const STACK: usize> Ga
 
     /// True where irradiance in closed form takes the place of light samples, if nothing hides the light.
     fn takes_closed_form(&self) -> bool {
+        self.plan.bsdf == 0 && self.may_take_closed_form()
+    }
+
+    /// The same, where nothing is left to the BSDF.
+    pub(super) fn may_take_closed_form(&self) -> bool {
         let Direct { technique, choice, .. } = *self.direct;
         let may_choose = matches!(technique, Technique::Auto(_) | Technique::Control(_));
-        may_choose && choice == LightChoice::All && self.plan.bsdf == 0 && self.shading.bsdf().is_diffuse()
+        may_choose && choice == LightChoice::All && self.shading.bsdf().is_diffuse()
     }
 
     /// What a light brings that nothing hides, without noise, beyond what [`Gather::unshadowed`] has; `None`
@@ -195,6 +212,31 @@ impl<'g, S: Shape, L: Emitter, M: Material, K: Knowledge, const STACK: usize> Ga
         Some(if self.plan.control { Rgb::BLACK } else { reflected })
     }
 
+    /// What is known of a light that is a sky, where that takes the place of light samples.
+    #[inline]
+    fn sky(&self, index: usize) -> Option<&SkyView> {
+        self.known.sky(index).filter(|_| self.takes_closed_form())
+    }
+
+    /// What the open part of a sky brings, without noise.
+    #[inline]
+    fn of_clear_sky(&self, view: &SkyView, observer: &mut impl Observer) -> Rgb {
+        let reflected = self.shading.diffuse() * view.irradiance();
+        if !reflected.is_black() {
+            observer.light(true, || reflected.average());
+        }
+        reflected
+    }
+
+    /// A direction toward a light, or toward the part of it that may be hidden.
+    #[inline]
+    fn light_sample(&self, index: usize, light: &L, u: [f32; 2]) -> Option<LightSample> {
+        match (self.sky(index), light.environment_map()) {
+            (Some(view), Some(map)) => map.sample_rest(view, u),
+            _ => light.sample(&self.shading.receiver, self.direct.surface, u),
+        }
+    }
+
     /// True when no sample of the lights is noisy, nor hides anything: what the point reflects is a
     /// smooth function of where it is.
     pub(super) fn is_smooth(&self) -> bool {
@@ -209,12 +251,12 @@ impl<'g, S: Shape, L: Emitter, M: Material, K: Knowledge, const STACK: usize> Ga
     /// One sample of the light with that index, chosen with probability `pmf`.
     #[inline]
     fn toward(&self, index: usize, pmf: f32, u: [f32; 2], observer: &mut impl Observer) -> Rgb {
-        let Self { direct, scene, shading, plan, .. } = self;
+        let Self { scene, shading, plan, .. } = self;
         let Some(light) = scene.lights().get(index) else { return Rgb::BLACK };
         if plan.light == 0 && !light.is_delta() {
             return Rgb::BLACK;
         }
-        let Some(sample) = light.sample(&shading.receiver, direct.surface, u) else { return Rgb::BLACK };
+        let Some(sample) = self.light_sample(index, light, u) else { return Rgb::BLACK };
         if sample.incident.is_black() {
             return Rgb::BLACK;
         }

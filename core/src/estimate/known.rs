@@ -12,7 +12,7 @@ use super::{Estimator, Job};
 use crate::camera::Camera;
 use crate::film::{Film, PixelRect};
 use crate::geom::{Aabb, Ray, Region, unit};
-use crate::light::Emitter;
+use crate::light::{Emitter, SkyView};
 use crate::material::Material;
 use crate::num;
 use crate::scene::{Interaction, Scene};
@@ -42,6 +42,32 @@ pub struct Known {
     flat: u8,
 }
 
+/// What is known of all samples of a few pixels, and of the sky above the surface that they see.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Foreseen<'a> {
+    known: Known,
+    sky: Option<(usize, &'a SkyView)>,
+}
+
+impl<'a> Foreseen<'a> {
+    /// * `sky` – the index of an environment map, and how the surface sees it
+    pub(super) fn new(known: Known, sky: Option<(usize, &'a SkyView)>) -> Self {
+        Self { known, sky }
+    }
+
+    /// What is known without the sky.
+    #[must_use]
+    pub const fn known(&self) -> &Known {
+        &self.known
+    }
+}
+
+impl From<Known> for Foreseen<'_> {
+    fn from(known: Known) -> Self {
+        Self { known, sky: None }
+    }
+}
+
 /// What is known of the lights where light is gathered.
 pub(super) trait Knowledge: Copy {
     /// True when nothing but a light itself can be between it and any of the points.
@@ -49,6 +75,12 @@ pub(super) trait Knowledge: Copy {
 
     /// True when no shadow ray to a light can be blocked, not even by the light itself.
     fn is_open(self, light: usize) -> bool;
+
+    /// True when a part of the sky is known to be open.
+    fn sees_sky(&self) -> bool;
+
+    /// What part of the light nothing hides, of one that is a sky.
+    fn sky(&self, light: usize) -> Option<&SkyView>;
 }
 
 /// Nothing is known.
@@ -62,24 +94,44 @@ impl Knowledge for () {
     fn is_open(self, _: usize) -> bool {
         false
     }
+
+    #[inline(always)]
+    fn sees_sky(&self) -> bool {
+        false
+    }
+
+    #[inline(always)]
+    fn sky(&self, _: usize) -> Option<&SkyView> {
+        None
+    }
 }
 
-impl Knowledge for Known {
+impl Knowledge for Foreseen<'_> {
     #[inline]
     fn is_lit(self, light: usize) -> bool {
-        light < MOST_LIGHTS && self.lit >> light & 1 == 1
+        light < MOST_LIGHTS && self.known.lit >> light & 1 == 1
     }
 
     #[inline]
     fn is_open(self, light: usize) -> bool {
-        self.is_lit(light) && self.flat >> light & 1 == 1
+        self.is_lit(light) && self.known.flat >> light & 1 == 1
+    }
+
+    #[inline]
+    fn sees_sky(&self) -> bool {
+        self.sky.is_some()
+    }
+
+    #[inline]
+    fn sky(&self, light: usize) -> Option<&SkyView> {
+        self.sky.filter(|(index, _)| *index == light).map(|(_, view)| view)
     }
 }
 
 /// What camera rays between four corners do.
-struct Sight {
+pub(super) struct Sight {
     rays: [Ray; 4],
-    hits: [Interaction; 4],
+    pub(super) hits: [Interaction; 4],
 }
 
 impl Known {
@@ -142,15 +194,8 @@ impl Known {
             [None, None, None, None] if misses_all(scene, &views) => {
                 (Self { met: Met::Nothing, ..Self::default() }, None)
             }
-            [Some(a), Some(b), Some(c), Some(d)] => {
-                let sight = Sight { rays, hits: [a, b, c, d] };
-                if sight.is_of_one_surface(scene) {
-                    (sight.look_at_lights(scene), Some((a, -rays[0].direction)))
-                } else {
-                    nothing
-                }
-            }
-            _ => nothing,
+            hits => Sight::new(scene, rays, hits)
+                .map_or(nothing, |sight| (sight.look_at_lights(scene), Some(sight.first()))),
         }
     }
 }
@@ -173,7 +218,7 @@ fn misses_all<S: Shape, L: Emitter, M: Material, const STACK: usize>(
 }
 
 /// True when a surface may be in a region, but for those that `spare` names.
-fn meets_any<S: Shape, L: Emitter, M: Material, const STACK: usize>(
+pub(super) fn meets_any<S: Shape, L: Emitter, M: Material, const STACK: usize>(
     scene: &Scene<'_, S, L, M, STACK>,
     region: &Region,
     mut spare: impl FnMut(u32, &S) -> bool,
@@ -206,6 +251,34 @@ fn is_on_one_side(outline: &[Vec3; 4], points: &[Vec3; 4], bounds: &Aabb) -> boo
 }
 
 impl Sight {
+    /// What all rays between four meet, when that is one flat surface.
+    fn new<S: Shape, L: Emitter, M: Material, const STACK: usize>(
+        scene: &Scene<'_, S, L, M, STACK>,
+        rays: [Ray; 4],
+        hits: [Option<Interaction>; 4],
+    ) -> Option<Self> {
+        let [Some(a), Some(b), Some(c), Some(d)] = hits else { return None };
+        let sight = Self { rays, hits: [a, b, c, d] };
+        sight.is_of_one_surface(scene).then_some(sight)
+    }
+
+    /// The same for the rays of some pixels.
+    pub(super) fn of_part<S: Shape, L: Emitter, M: Material, const STACK: usize>(
+        scene: &Scene<'_, S, L, M, STACK>,
+        camera: &Camera,
+        film: &Film,
+        part: PixelRect,
+    ) -> Option<Self> {
+        let views = film.corners(part).map(|(x, y)| camera.ray(x, y));
+        let hits = views.map(|(ray, reach)| scene.closest_hit(&ray, reach));
+        Self::new(scene, views.map(|(ray, _)| ray), hits)
+    }
+
+    /// One of the points, and the unit direction from there to the viewer.
+    pub(super) fn first(&self) -> (Interaction, Vec3) {
+        (self.hits[0], -self.rays[0].direction)
+    }
+
     /// True when all rays meet the flat surface that the corners meet.
     fn is_of_one_surface<S: Shape, L: Emitter, M: Material, const STACK: usize>(
         &self,
@@ -221,14 +294,20 @@ impl Sight {
         !meets_any(scene, &beam, |index, shape| index == seen || is_beside(shape, &self.rays))
     }
 
-    fn points(&self) -> [Vec3; 4] {
+    pub(super) fn points(&self) -> [Vec3; 4] {
         self.hits.map(|hit| hit.at.point)
     }
 
     /// Geometric normal toward the viewer.
-    fn normal(&self) -> Vec3 {
+    pub(super) fn normal(&self) -> Vec3 {
         let normal = self.hits[0].at.normal;
         if normal.dot(self.rays[0].direction) <= 0.0 { normal } else { -normal }
+    }
+
+    /// Rays leave from so far above the surface: what is below is not in their way (m).
+    pub(super) fn lift(&self) -> f32 {
+        let normal = self.normal().abs();
+        2.0 * self.hits.iter().map(|hit| normal.dot(hit.at.error)).fold(0.0, f32::max)
     }
 
     /// What is known of the lights of a scene, now that the surface is.
@@ -263,8 +342,7 @@ impl Sight {
         if self.hits.iter().any(|hit| hit.shading_normal != hit.at.normal) && !above(lowest) {
             return None;
         }
-        // Rays leave from this far above the surface: what is below is not in their way.
-        let lift = 2.0 * self.hits.iter().map(|hit| normal.abs().dot(hit.at.error)).fold(0.0, f32::max);
+        let lift = self.lift();
         let shaft = Region::shaft(&Aabb::around(&self.points()), bounds);
         let mut flat = true;
         let blocked = meets_any(scene, &shaft, |index, shape| {

@@ -18,6 +18,7 @@ mod path;
 mod probe;
 mod refine;
 mod shading;
+mod sky;
 mod stats;
 mod target;
 
@@ -28,7 +29,7 @@ pub use convergence::{Convergence, DifferenceSums, ErrorEstimate};
 pub use direct::{Direct, Technique};
 pub use heuristic::Heuristic;
 pub use job::{Job, passes};
-pub use known::{Known, Met};
+pub use known::{Foreseen, Known, Met};
 pub use layers::LayeredPixel;
 pub use observer::Observer;
 pub use occlusion::Occlusion;
@@ -85,7 +86,7 @@ pub trait Estimator {
     fn observe_known<S: Shape, L: Emitter, M: Material, const STACK: usize>(
         &self,
         scene: &Scene<'_, S, L, M, STACK>,
-        known: Known,
+        known: Foreseen<'_>,
         ray: &Ray,
         reach: f32,
         sequence: &mut impl Sequence,
@@ -107,6 +108,19 @@ pub trait Estimator {
         wo: Vec3,
     ) -> bool {
         let _ = (scene, known, hit, wo);
+        false
+    }
+
+    /// True when [`Estimator::observe_known`] makes use of what is known of the sky above a surface.
+    ///
+    /// * `hit` – one of the points that are seen, toward the unit direction `wo`
+    fn uses_sky<S: Shape, L: Emitter, M: Material, const STACK: usize>(
+        &self,
+        scene: &Scene<'_, S, L, M, STACK>,
+        hit: &Interaction,
+        wo: Vec3,
+    ) -> bool {
+        let _ = (scene, hit, wo);
         false
     }
 }
@@ -146,7 +160,7 @@ impl Estimator for AnyEstimator<'_> {
     fn observe_known<S: Shape, L: Emitter, M: Material, const STACK: usize>(
         &self,
         scene: &Scene<'_, S, L, M, STACK>,
-        known: Known,
+        known: Foreseen<'_>,
         ray: &Ray,
         reach: f32,
         sequence: &mut impl Sequence,
@@ -166,5 +180,14 @@ impl Estimator for AnyEstimator<'_> {
         wo: Vec3,
     ) -> bool {
         matches!(self, Self::Direct(e) if e.is_smooth(scene, known, hit, wo))
+    }
+
+    fn uses_sky<S: Shape, L: Emitter, M: Material, const STACK: usize>(
+        &self,
+        scene: &Scene<'_, S, L, M, STACK>,
+        hit: &Interaction,
+        wo: Vec3,
+    ) -> bool {
+        matches!(self, Self::Direct(e) if e.uses_sky(scene, hit, wo))
     }
 }

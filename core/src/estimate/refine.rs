@@ -1,7 +1,8 @@
 //! Refining a tile, step by step.
 
-use super::adaptive::BLOCKS;
+use super::adaptive::{BLOCKS, in_groups};
 use super::lamps::each_lamp;
+use super::sky::Above;
 use super::{AdaptiveTile, Estimator, Job, Pixel, Target};
 use crate::geom::Ray;
 use crate::light::Emitter;
@@ -28,12 +29,12 @@ impl Step {
     /// True when nothing is left to do: of a new step, that the tile is good enough.
     #[must_use]
     pub fn is_over(&self) -> bool {
-        self.block().is_none()
+        self.place().is_none()
     }
 
-    /// The next block.
-    fn block(&self) -> Option<usize> {
-        (self.at..BLOCKS).find(|&i| self.chosen[i])
+    /// The place of the next block, among all of them group by group.
+    fn place(&self) -> Option<usize> {
+        (self.at..BLOCKS).find(|&place| self.chosen[in_groups(place).0])
     }
 }
 
@@ -78,11 +79,13 @@ impl<S: Shape, L: Emitter, M: Material, E: Estimator, Q: Sequence + Clone> Job<'
         if step.at == 0 && tile.fewest_samples() == 0 {
             self.begin(tile);
         }
-        let mut taken = 0;
-        while let Some(index) = step.block().filter(|_| go_on()) {
-            step.at = index + 1;
+        let (mut taken, mut above) = (0, Above::default());
+        while let Some(place) = step.place().filter(|_| go_on()) {
+            step.at = place + 1;
+            let (index, group) = in_groups(place);
             let Some((part, samples, known)) = tile.block(index) else { continue };
             let end = samples.saturating_mul(2).clamp(1, target.most()).max(samples);
+            let known = above.foreseen(self, tile, group, known);
             let observe = |ray: &Ray, reach, sequence: &mut Q, pixel: &mut P| {
                 self.estimator.observe_known(&self.scene, known, ray, reach, sequence, pixel)
             };

@@ -31,6 +31,7 @@ pub struct Scene<'a, S, L, M, const STACK: usize = { crate::bvh::STACK }> {
     first_environment: usize,
     has_delta_light: bool,
     has_light_to_meet: bool,
+    leaves_to_bsdf: bool,
 }
 
 // Not derived: a scene is copied as a view, whatever it is generic over.
@@ -91,6 +92,7 @@ impl<'a, S: Shape, L: Emitter, M: Material, const STACK: usize> Scene<'a, S, L, 
             first_environment: tables.first_environment()?,
             has_delta_light: tables.lights.iter().any(L::is_delta),
             has_light_to_meet: tables.lights.iter().any(|l| !l.is_delta()),
+            leaves_to_bsdf: tables.lights.iter().any(L::leaves_to_bsdf),
         })
     }
 
@@ -136,6 +138,13 @@ impl<'a, S: Shape, L: Emitter, M: Material, const STACK: usize> Scene<'a, S, L, 
     #[must_use]
     pub fn has_light_to_meet(&self) -> bool {
         self.has_light_to_meet
+    }
+
+    /// True when a light leaves a part of it to directions from the BSDF.
+    #[inline]
+    #[must_use]
+    pub fn leaves_to_bsdf(&self) -> bool {
+        self.leaves_to_bsdf
     }
 
     /// The lights that surround the scene, each with its index.

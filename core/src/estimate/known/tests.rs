@@ -73,7 +73,8 @@ fn agree<S: Shape, L: Emitter, M: Material>(
     assert_eq!(known.first_hit(scene, ray, reach), hit);
     let Some(hit) = hit else { return };
     let wo = -ray.direction;
-    for (index, light) in scene.lights().iter().enumerate().filter(|(i, _)| known.is_open(*i)) {
+    for (index, light) in scene.lights().iter().enumerate().filter(|(i, _)| Foreseen::from(known).is_open(*i))
+    {
         let u = sequence.point(Dimension::Light(index as u32), 0, 1);
         let Some(sample) = light.sample(&hit.receiver(wo), SurfaceDensity::Area, u) else { continue };
         let is_outside = hit.at.normal.dot(sample.wi) * hit.at.normal.dot(wo) > 0.0;
