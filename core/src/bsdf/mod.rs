@@ -88,6 +88,53 @@ pub trait Bsdf: Copy {
     }
 }
 
+/// A model that stays where it is kept.
+impl<B: Bsdf> Bsdf for &B {
+    #[inline]
+    fn eval(&self, wo: Vec3, wi: Vec3) -> Rgb {
+        B::eval(self, wo, wi)
+    }
+
+    #[inline]
+    fn sample(&self, wo: Vec3, u: [f32; 2], u_lobe: f32) -> Option<BsdfSample> {
+        B::sample(self, wo, u, u_lobe)
+    }
+
+    #[inline]
+    fn pdf_solid_angle(&self, wo: Vec3, wi: Vec3) -> f32 {
+        B::pdf_solid_angle(self, wo, wi)
+    }
+
+    #[inline]
+    fn albedo(&self) -> Rgb {
+        B::albedo(self)
+    }
+
+    #[inline]
+    fn is_diffuse(&self) -> bool {
+        B::is_diffuse(self)
+    }
+
+    #[inline]
+    fn lobe_solid_angle(&self) -> f32 {
+        B::lobe_solid_angle(self)
+    }
+
+    #[inline]
+    fn needs_tangent(&self) -> bool {
+        B::needs_tangent(self)
+    }
+
+    #[inline]
+    fn is_black(&self) -> bool {
+        B::is_black(self)
+    }
+
+    fn check(&self) -> Result<(), BsdfError> {
+        B::check(self)
+    }
+}
+
 /// Any of the models: what a frontend that reads arbitrary scenes uses.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum AnyBsdf {

@@ -61,7 +61,7 @@ impl<D: StaticDensity> ByLight<D> {
     #[inline]
     fn toward<S: Shape, L: Emitter, M: Material, const STACK: usize>(
         scene: &Scene<'_, S, L, M, STACK>,
-        shading: &Shading<'_, M::Bsdf>,
+        shading: &Shading<'_, M::Bsdf<'_>>,
         (index, light): (usize, &L),
         u: [f32; 2],
         observer: &mut impl Observer,

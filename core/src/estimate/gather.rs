@@ -20,7 +20,7 @@ use glam::Vec3;
 pub(super) struct Gather<'g, S, L, M: Material, K, const STACK: usize> {
     direct: &'g Direct<'g>,
     scene: &'g Scene<'g, S, L, M, STACK>,
-    shading: &'g Shading<'g, M::Bsdf>,
+    shading: &'g Shading<'g, M::Bsdf<'g>>,
     known: K,
     plan: Plan,
 }
@@ -78,7 +78,7 @@ const SHARE_OF_LOBE: f32 = 0.25;
 fn fills_a_lobe<S: Shape, L: Emitter, M: Material, const STACK: usize>(
     direct: &Direct<'_>,
     scene: &Scene<'_, S, L, M, STACK>,
-    shading: &Shading<'_, M::Bsdf>,
+    shading: &Shading<'_, M::Bsdf<'_>>,
 ) -> bool {
     let (point, lobe) = (shading.receiver.point, shading.bsdf().lobe_solid_angle());
     // A disk that faces the point fills π r² / d², and its mean squared distance to the middle is r² / 2.
@@ -96,7 +96,7 @@ impl<'g, S: Shape, L: Emitter, M: Material, K: Knowledge, const STACK: usize> Ga
     pub(super) fn new(
         direct: &'g Direct<'g>,
         scene: &'g Scene<'g, S, L, M, STACK>,
-        shading: &'g Shading<'g, M::Bsdf>,
+        shading: &'g Shading<'g, M::Bsdf<'g>>,
         known: K,
     ) -> Self {
         let diffuse = shading.bsdf().is_diffuse();

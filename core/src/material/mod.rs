@@ -15,13 +15,15 @@ use glam::Vec2;
 
 /// Gives each place of a surface its BSDF.
 pub trait Material: Copy {
-    /// The model of reflection.
-    type Bsdf: Bsdf;
+    /// The model of reflection: of a material that is the same everywhere, where it is kept.
+    type Bsdf<'m>: Bsdf
+    where
+        Self: 'm;
 
     /// The BSDF at a place.
     ///
     /// * `uv` – computes the place's texture coordinates; called only where they matter
-    fn at(&self, uv: impl FnOnce() -> Vec2) -> Self::Bsdf;
+    fn at(&self, uv: impl FnOnce() -> Vec2) -> Self::Bsdf<'_>;
 
     /// True when the BSDF may differ from place to place.
     fn is_textured(&self) -> bool {
@@ -36,11 +38,14 @@ pub trait Material: Copy {
 }
 
 impl<B: Bsdf> Material for B {
-    type Bsdf = B;
+    type Bsdf<'m>
+        = &'m B
+    where
+        B: 'm;
 
     #[inline]
-    fn at(&self, _uv: impl FnOnce() -> Vec2) -> B {
-        *self
+    fn at(&self, _uv: impl FnOnce() -> Vec2) -> &B {
+        self
     }
 
     fn is_textured(&self) -> bool {
@@ -90,7 +95,10 @@ impl AnyMaterial<'_> {
 }
 
 impl Material for AnyMaterial<'_> {
-    type Bsdf = TwoSided<AnyBsdf>;
+    type Bsdf<'m>
+        = TwoSided<AnyBsdf>
+    where
+        Self: 'm;
 
     #[inline]
     fn at(&self, uv: impl FnOnce() -> Vec2) -> TwoSided<AnyBsdf> {

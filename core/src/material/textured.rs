@@ -84,7 +84,10 @@ impl<'a, B: Parametric> Textured<'a, B> {
 }
 
 impl<B: Parametric> Material for Textured<'_, B> {
-    type Bsdf = B;
+    type Bsdf<'m>
+        = B
+    where
+        Self: 'm;
 
     #[inline]
     fn at(&self, uv: impl FnOnce() -> Vec2) -> B {
