@@ -181,7 +181,7 @@ impl<S: SampledShape, R: SurfaceRadiance> AreaLight<S, R> {
     }
 
     /// Answers from what `from` sees of the light; `None` when that is nothing, or not drawn.
-    #[inline]
+    #[inline(always)]
     pub(super) fn ask(&self, from: &Receiver, method: SurfaceDensity, question: Question) -> Option<Answer> {
         ask(&self.shape, from, method, self.sides, question)
     }

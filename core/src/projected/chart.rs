@@ -35,12 +35,9 @@ impl Chart {
         Self::new(a - from.as_dvec3(), b - a, c - a)
     }
 
-    #[inline]
+    #[inline(always)]
     fn new(origin: DVec3, u: DVec3, v: DVec3) -> Self {
-        let across = u.cross(v);
-        let (volume, size) = (origin.dot(across), origin.abs().dot(across.abs()));
-        let volume = if volume.abs() > 4.0 * f64::EPSILON * size { volume } else { 0.0 };
-        Self { origin, u, v, volume }
+        Self { origin, u, v, volume: determinant(&origin, &u, &v) }
     }
 
     /// `det(origin, u, v)` (m³): negative where `u × v` points to the receiver's side; 0 in the plane,
@@ -57,6 +54,15 @@ impl Chart {
     pub fn point(&self, place: Vec2) -> Vec3 {
         (self.origin + self.u * f64::from(place.x) + self.v * f64::from(place.y)).as_vec3()
     }
+}
+
+/// `det(a, b, c)`, or 0 where it may be nothing but rounding.
+#[cfg_attr(not(feature = "small"), inline)]
+#[cfg_attr(feature = "small", inline(never))]
+fn determinant(a: &DVec3, b: &DVec3, c: &DVec3) -> f64 {
+    let terms = *a * b.cross(*c);
+    let (sum, size) = (terms.element_sum(), terms.abs().element_sum());
+    if sum.abs() > 4.0 * f64::EPSILON * size { sum } else { 0.0 }
 }
 
 #[cfg(test)]
