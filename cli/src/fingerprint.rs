@@ -94,7 +94,6 @@ mod tests {
     use super::*;
     use halflight::build::EnvironmentDescription;
     use halflight::glam::Mat3;
-    use halflight::light::EnvironmentDensity;
     use halflight::load::builtin::builtin;
 
     #[test]
@@ -112,11 +111,8 @@ mod tests {
     fn every_bit_of_meshes_and_skies_counts() {
         let mut scene = builtin("still-life").unwrap();
         let texels = vec![halflight::Rgb::WHITE; 6];
-        scene.environments.push(EnvironmentDescription {
-            image: Arc::new(Image { width: 3, height: 2, texels }),
-            to_world: Mat3::IDENTITY,
-            density: EnvironmentDensity::Auto,
-        });
+        let image = Image { width: 3, height: 2, texels };
+        scene.environments.push(EnvironmentDescription::new(image, Mat3::IDENTITY));
         let hash = of_scene(&mut scene);
         assert_eq!(of_scene(&mut scene), hash, "the scene is left as it was");
         let mut other = scene.clone();

@@ -9,9 +9,8 @@ use halflight::build::{
 };
 use halflight::camera::View;
 use halflight::glam::{Mat3, Vec3};
-use halflight::light::{AnyLight, Constant, Directional, EnvironmentDensity, Point, Spot};
+use halflight::light::{AnyLight, Constant, Directional, Point, Spot};
 use halflight::shape::{AnyShape, Cylinder, Disk, Rectangle, Sphere, Triangle};
-use std::sync::Arc;
 
 /// The scene that belongs to a seed: up to 8 objects and 3 lights, from a millimetre to a kilometre, of
 /// every kind of material, with shapes from round to a needle.
@@ -127,6 +126,5 @@ fn environment(u: &mut Uniforms) -> EnvironmentDescription {
     let texel = |u: &mut Uniforms| colour(u) * if u.below(16) == 0 { power(u, 0.0, 5.0) } else { 1.0 };
     let texels = (0..width * height).map(|_| texel(u)).collect();
     let to_world = Mat3::from_axis_angle(u.direction(), u.between(-3.0, 3.0));
-    let image = Arc::new(Image { width, height, texels });
-    EnvironmentDescription { image, to_world, density: EnvironmentDensity::Auto }
+    EnvironmentDescription::new(Image { width, height, texels }, to_world)
 }

@@ -1,7 +1,7 @@
 //! Environment maps pass each check, however directions toward them are drawn.
 
 use halflight::glam::{Mat3, Vec3};
-use halflight::light::{Density, Emitter, EnvironmentDensity, SurfaceDensity};
+use halflight::light::{Density, Emitter, EnvironmentDensity, Receiver, SurfaceDensity};
 use halflight_tests::environments::{DENSITIES, noise, over_a_slope, slope, sun};
 use halflight_tests::lights::{self, Lying, scaled};
 use halflight_tests::random::{Uniforms, corners};
@@ -200,4 +200,31 @@ fn a_table_of_another_map_is_refused() {
     let stretched = EnvironmentMap::new(&small.texels, 6, 3, Mat3::from_diagonal(Vec3::new(1.0, 2.0, 1.0)));
     assert_eq!(stretched, Err(LightError::NotARotation));
     assert!(slope().normal.is_normalized());
+}
+
+#[test]
+fn a_map_that_is_turned_and_scaled_keeps_its_table() {
+    use halflight::build::EnvironmentTables;
+    use halflight::light::{EnvironmentMap, LightError};
+    let image = noise(12, 6);
+    let tables = EnvironmentTables::new(&image, EnvironmentDensity::Product);
+    let map = EnvironmentMap::new(&image.texels, 12, 6, Mat3::IDENTITY)
+        .and_then(|map| map.with_table(tables.table().unwrap()))
+        .unwrap();
+    let turn = Mat3::from_rotation_y(2.0);
+    let turned = map.turned(turn).and_then(|map| map.scaled(4.0)).unwrap();
+    let from = slope();
+    let before = Receiver { normal: turn.transpose() * from.normal, ..from };
+    for aside in [Vec3::ZERO, Vec3::new(0.4, 0.2, 0.0), Vec3::new(-0.3, 0.1, 0.5)] {
+        let wi = (before.normal + aside).normalize();
+        let (as_it_was, new) = (map.radiance_escaping(wi) * 4.0, turned.radiance_escaping(turn * wi));
+        assert!((as_it_was.luminance() / new.luminance() - 1.0).abs() < 1e-4, "{as_it_was:?} {new:?}");
+        let (as_it_was, new) = (map.pdf_escaping(&before, wi), turned.pdf_escaping(&from, turn * wi));
+        assert!((as_it_was / new - 1.0).abs() < 1e-4, "{as_it_was} {new}");
+    }
+    assert!((turned.power(2.0) / map.power(2.0) - 4.0).abs() < 1e-5);
+    assert!(matches!(map.scaled(-1.0), Err(LightError::NegativeEmission { .. })));
+    assert!(matches!(map.scaled(f32::NAN), Err(LightError::NotFinite { .. })));
+    assert!(matches!(map.scaled(f32::MAX), Err(LightError::Texel { .. })));
+    assert!(map.turned(Mat3::ZERO).is_err() && map.scaled(0.0).is_ok());
 }

@@ -2,13 +2,13 @@
 
 use crate::Scene;
 use crate::lights::places;
+use crate::rigid::Turn;
 use crate::scene::{Res, thrown};
 use halflight::build::{EnvironmentDescription, Image};
 use halflight::glam::Mat3;
-use halflight::light::{Emitter, EnvironmentDensity, EnvironmentMap};
+use halflight::light::{Emitter, EnvironmentMap};
 use halflight::load::{Encoding, LoadOptions, Loaded, load_from, read_image_from};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use wasm_bindgen::prelude::*;
 
 /// Files in memory, by path.
@@ -47,8 +47,7 @@ impl Files {
             .map_err(|e| format!("{path}: {e}"))?;
         EnvironmentMap::new(&image.texels, image.width, image.height, Mat3::IDENTITY)
             .map_err(|e| format!("{path}: {e}"))?;
-        let density = EnvironmentDensity::default();
-        Ok(EnvironmentDescription { image: Arc::new(image), to_world: Mat3::IDENTITY, density })
+        Ok(EnvironmentDescription::new(image, Mat3::IDENTITY))
     }
 }
 
@@ -89,7 +88,9 @@ impl Scene {
         let sky = files.sky(path)?;
         self.description.lights.retain(|light| !light.is_environment());
         self.description.environments = vec![sky];
+        self.turns = self.description.environments.iter().map(Turn::none).collect();
         self.places = places(&self.description);
+        self.homes.clear();
         let density = self.choices.environment(&self.description);
         self.description.environments.iter_mut().for_each(|map| map.density = density);
         self.build()

@@ -31,6 +31,7 @@ mod probe;
 mod progress;
 mod refinement;
 mod render;
+mod rigid;
 mod scene;
 
 pub use camera::View;

@@ -21,7 +21,8 @@ pub struct Light {
     pub name: String,
     /// `rectangle`, `disk`, `sphere`, `cylinder`, `point`, `spot`, `directional`, `distant` (a far disk, like
     /// the sun), `constant` (from all around) and `none` can be changed into one another; `mesh`, `triangle`
-    /// and `painted` cannot, but can be made brighter and of another colour.
+    /// and `painted` cannot, but can be moved, made brighter and of another colour; a `map` of the
+    /// surroundings can be turned and made brighter.
     #[wasm_bindgen(readonly)]
     pub kind: String,
     /// Its middle (m); of lights without a place, the origin.
@@ -31,18 +32,19 @@ pub struct Light {
     #[wasm_bindgen(readonly)]
     pub direction: Vec<f32>,
     /// Full width and height (m); a sphere and a disk have their diameter. Of a spot the full angles in
-    /// which it shines at all, and undimmed (degrees); of a distant disk that which it fills.
+    /// which it shines at all, and undimmed (degrees); of a distant disk that which it fills. Of a map how far
+    /// it is turned about the vertical (degrees, counter-clockwise seen from above), and 0.
     #[wasm_bindgen(readonly)]
     pub size: Vec<f32>,
     /// Intensity straight ahead (W sr⁻¹) of lights with a place, irradiance (W m⁻²) of parallel light,
-    /// radiance (W m⁻² sr⁻¹) of one all around and of a mesh, what multiplies the picture of a painted one:
-    /// red, green, blue.
+    /// radiance (W m⁻² sr⁻¹) of one all around and of a mesh, what multiplies the picture of a painted one
+    /// and of a map: red, green, blue, which are the same for a map.
     #[wasm_bindgen(readonly)]
     pub strength: Vec<f32>,
     /// Corners of a flat light, for drawing it: x, y, z each (m).
     #[wasm_bindgen(readonly)]
     pub outline: Vec<f32>,
-    /// True when [`crate::Scene::set_light`] can change more than its strength.
+    /// True when [`crate::Scene::set_light`] can change its kind and its form.
     #[wasm_bindgen(readonly)]
     pub editable: bool,
 }
@@ -64,8 +66,6 @@ pub(crate) enum Made {
     Surface(AnyShape, Rgb),
     /// A light without one.
     Free(AnyLight<'static>),
-    /// Another radiance of a surface that stays.
-    Emission(Rgb),
     /// None.
     Nothing,
 }
@@ -93,7 +93,7 @@ impl fmt::Display for Refused {
 impl std::error::Error for Refused {}
 
 /// Radiance that a surface can have.
-fn check_emission(radiance: Rgb) -> Result<Rgb, LightError> {
+pub(crate) fn check_emission(radiance: Rgb) -> Result<Rgb, LightError> {
     Constant::new(radiance).map(|_| radiance)
 }
 
@@ -131,7 +131,6 @@ impl Wanted<'_> {
                 AnyShape::Cylinder(Cylinder::new(base, direction * height, 0.5 * width)?)
             }
             "none" => return Ok(Made::Nothing),
-            "mesh" | "triangle" | "painted" => return Ok(Made::Emission(check_emission(self.strength)?)),
             _ => return self.without_surface(direction).map(Made::Free),
         };
         Ok(Made::Surface(shape, self.strength / seen_area(&shape)))
@@ -207,6 +206,11 @@ impl Light {
             light.name.clone_from(&object.name);
         }
         Some(light)
+    }
+
+    /// A picture of the surroundings.
+    pub(crate) fn of_map(scale: f32, degrees: f32) -> Self {
+        Self { size: vec![degrees, 0.0], strength: vec![scale; 3], ..Self::new("map", false) }
     }
 
     /// One that was taken away.

@@ -1,11 +1,13 @@
 //! The lights of a scene: where they are kept, and how they change.
 
 use crate::Scene;
-use crate::light::{Light, Made, Wanted};
+use crate::light::{Light, Made, Wanted, check_emission};
+use crate::rigid::Home;
 use crate::scene::Res;
 use halflight::Rgb;
 use halflight::bsdf::{AnyBsdf, Lambert, TwoSided};
 use halflight::build::{Description, Emission, Geometry, Material, Object};
+use halflight::glam::Vec3;
 use halflight::shape::AnyShape;
 
 /// Most lights that a scene is given.
@@ -16,6 +18,7 @@ const MOST_LIGHTS: usize = 64;
 pub(crate) enum Place {
     Object(usize),
     Free(usize),
+    Map(usize),
     /// Nowhere: it was taken away.
     Nowhere,
 }
@@ -23,34 +26,45 @@ pub(crate) enum Place {
 /// Where the lights are kept.
 pub(crate) fn places(description: &Description) -> Vec<Place> {
     let objects = description.objects.iter().enumerate().filter(|(_, o)| o.emission.is_some());
-    objects.map(|(i, _)| Place::Object(i)).chain((0..description.lights.len()).map(Place::Free)).collect()
+    let free = (0..description.lights.len()).map(Place::Free);
+    let maps = (0..description.environments.len()).map(Place::Map);
+    objects.map(|(i, _)| Place::Object(i)).chain(free).chain(maps).collect()
 }
 
 impl Scene {
-    /// The light at a place.
-    pub(crate) fn light(&self, place: Place) -> Light {
+    /// The light with an index, at its place.
+    pub(crate) fn light(&self, index: usize, place: Place) -> Light {
+        let map = |i: usize| Some((self.description.environments.get(i)?.scale, self.turns.get(i)?.degrees));
         let light = match place {
             Place::Object(i) => self.description.objects.get(i).and_then(Light::of_object),
             Place::Free(i) => self.description.lights.get(i).map(Light::of_light),
+            Place::Map(i) => map(i).map(|(scale, degrees)| Light::of_map(scale, degrees)),
             Place::Nowhere => None,
         };
-        light.unwrap_or_else(Light::none)
+        let mut light = light.unwrap_or_else(Light::none);
+        if let Some(home) = self.homes.get(&index) {
+            light.position = home.position.to_array().to_vec();
+        }
+        light
     }
 
     /// Changes a light, or adds one when `index` is one beyond the last.
     pub(crate) fn change_light(&mut self, index: usize, wanted: &Wanted<'_>) -> Res<()> {
         let is_new = index == self.places.len() && index < MOST_LIGHTS;
         let place = if is_new { Place::Nowhere } else { *self.places.get(index).ok_or("no such light")? };
-        let before = self.light(place);
-        if !before.editable && wanted.kind != before.kind {
-            return Err(format!("a {} light cannot become another one", before.kind).into());
+        let before = self.light(index, place);
+        if !before.editable {
+            if wanted.kind != before.kind {
+                return Err(format!("a {} light cannot become another one", before.kind).into());
+            }
+            self.change_rigid(index, place, wanted)?;
+            return self.relight();
         }
         let made = wanted.make(self.shape(place))?;
         if is_new {
             self.places.push(place);
         }
         match (place, made) {
-            (Place::Object(i), Made::Emission(radiance)) => self.emit(i, radiance),
             (Place::Object(i), Made::Surface(shape, radiance)) => {
                 self.description.objects[i].geometry = Geometry::Shape(shape);
                 self.emit(i, radiance);
@@ -61,8 +75,38 @@ impl Scene {
                 self.places[index] = self.put(before.name, made)?;
             }
         }
+        self.relight()
+    }
+
+    /// Takes the lights over into the tables.
+    fn relight(&mut self) -> Res<()> {
         self.settled = false;
         if self.buffers.relight(&self.description)? { Ok(()) } else { self.build() }
+    }
+
+    /// Changes a light that keeps its form.
+    fn change_rigid(&mut self, index: usize, place: Place, wanted: &Wanted<'_>) -> Res<()> {
+        let radiance = check_emission(wanted.strength)?;
+        match place {
+            Place::Object(i) => {
+                let middle = self.light(index, place).position;
+                let object = self.description.objects.get_mut(i).ok_or("no such light")?;
+                let new = || Home::new(object, Vec3::from_slice(&middle));
+                self.homes.entry(index).or_insert_with(new).put(object, wanted.position)?;
+                self.emit(i, radiance);
+            }
+            Place::Map(i) => {
+                let degrees = wanted.size[0];
+                let map = self.description.environments.get_mut(i).ok_or("no such map")?;
+                if !degrees.is_finite() {
+                    return Err("the map's turn is not a number".into());
+                }
+                self.turns.get_mut(i).ok_or("no such map")?.put(map, degrees);
+                map.scale = radiance.max_component();
+            }
+            Place::Free(_) | Place::Nowhere => {}
+        }
+        Ok(())
     }
 
     fn shape(&self, place: Place) -> Option<&AnyShape> {
@@ -90,7 +134,7 @@ impl Scene {
                 self.description.lights.push(light);
                 Place::Free(self.description.lights.len() - 1)
             }
-            Made::Emission(_) | Made::Nothing => Place::Nowhere,
+            Made::Nothing => Place::Nowhere,
         })
     }
 
@@ -98,7 +142,7 @@ impl Scene {
         match removed {
             Place::Object(i) => drop(self.description.objects.remove(i)),
             Place::Free(i) => drop(self.description.lights.remove(i)),
-            Place::Nowhere => {}
+            Place::Map(_) | Place::Nowhere => {}
         }
         for place in &mut self.places {
             match (place, removed) {
@@ -132,7 +176,6 @@ fn lamp(description: &mut Description, name: String, shape: AnyShape, radiance: 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use halflight::glam::Vec3;
 
     fn wanted(kind: &str) -> Wanted<'_> {
         let (position, direction) = (Vec3::new(0.0, 3.0, 0.0), Vec3::NEG_Y);

@@ -4,6 +4,7 @@ use crate::camera::{look, zoomed};
 use crate::choices::Choices;
 use crate::light::{Light, Wanted};
 use crate::lights::{Place, places};
+use crate::rigid::{Home, Turn};
 use crate::{BuiltinScene, Facts, Probe, View, probe};
 use halflight::Film;
 use halflight::Rgb;
@@ -11,6 +12,7 @@ use halflight::build::{Description, SceneBuffers};
 use halflight::film::PixelRect;
 use halflight::glam::Vec3;
 use halflight::load::builtin::{BUILTIN, builtin};
+use std::collections::BTreeMap;
 use std::error::Error;
 use wasm_bindgen::prelude::*;
 
@@ -29,6 +31,9 @@ pub struct Scene {
     pub(crate) description: Description,
     pub(crate) buffers: SceneBuffers,
     pub(crate) places: Vec<Place>,
+    /// Lights that have kept their form and moved, by their index.
+    pub(crate) homes: BTreeMap<usize, Home>,
+    pub(crate) turns: Vec<Turn>,
     pub(crate) choices: Choices,
     warnings: Vec<String>,
     /// False when the tree has the form of lights that were elsewhere.
@@ -110,10 +115,10 @@ impl Scene {
         Ok(())
     }
 
-    /// Its lights, but for environment maps.
+    /// Its lights, environment maps last.
     #[must_use]
     pub fn lights(&self) -> Vec<Light> {
-        self.places.iter().map(|place| self.light(*place)).collect()
+        self.places.iter().enumerate().map(|(index, place)| self.light(index, *place)).collect()
     }
 
     /// Changes the light with an index of [`Scene::lights`], or adds one after the last; the indices stay.
@@ -215,7 +220,9 @@ impl Scene {
         description.environments.iter_mut().for_each(|map| map.density = density);
         let buffers = SceneBuffers::new(&description)?;
         let places = places(&description);
-        Ok(Self { description, buffers, places, choices, warnings, settled: true })
+        let turns = description.environments.iter().map(Turn::none).collect();
+        let homes = BTreeMap::new();
+        Ok(Self { description, buffers, places, homes, turns, choices, warnings, settled: true })
     }
 
     pub(crate) fn build(&mut self) -> Res<()> {

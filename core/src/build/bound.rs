@@ -2,12 +2,11 @@
 
 use super::{BuildError, SceneBuffers};
 use crate::bvh::Bvh;
-use crate::light::{AnyLight, Emitter, EnvironmentMap, Portal, Portals};
+use crate::light::{AnyLight, Emitter, Portal, Portals};
 use crate::material::AnyMaterial;
 use crate::scene::{AnyScene, Scene, Tables};
 use crate::shape::AnyShape;
 use std::borrow::Cow;
-use std::string::ToString;
 
 /// What a scene borrows from: lights and materials that point to their pictures. Where nothing points to anything,
 /// the buffers' own tables, uncopied.
@@ -29,17 +28,24 @@ fn behind<'a>(light: AnyLight<'a>, portals: &'a [Portal]) -> AnyLight<'a> {
 }
 
 impl<'a> BoundScene<'a> {
-    pub(super) fn new(buffers: &'a SceneBuffers) -> Result<Self, BuildError> {
+    /// Binds tables that nobody has checked yet.
+    ///
+    /// # Errors
+    /// When they contradict one another.
+    pub(super) fn checked(buffers: &'a SceneBuffers) -> Result<Self, BuildError> {
+        let bound = Self::new(buffers, Bvh::new(&buffers.nodes, buffers.surfaces.len())?)?;
+        Scene::new(bound.bvh, bound.tables())?;
+        Ok(bound)
+    }
+
+    /// Binds tables that are known to fit: in a time that does not grow with the surfaces and the texels.
+    pub(super) fn new(buffers: &'a SceneBuffers, bvh: Bvh<'a>) -> Result<Self, BuildError> {
         let mut lights: Cow<'a, [AnyLight<'a>]> = Cow::Borrowed(&buffers.lights);
         for painted in &buffers.painted {
             lights.to_mut()[painted.light] = painted.bound();
         }
-        for (environment, tables) in &buffers.environments {
-            let image = &environment.image;
-            let map = EnvironmentMap::new(&image.texels, image.width, image.height, environment.to_world)
-                .and_then(|map| tables.table().map_or(Ok(map), |table| map.with_table(table)))
-                .map_err(|source| BuildError::Light { object: "the environment map".to_string(), source })?;
-            lights.to_mut().push(AnyLight::EnvironmentMap(map));
+        for environment in &buffers.environments {
+            lights.to_mut().push(AnyLight::EnvironmentMap(environment.bound()));
         }
         if !buffers.portals.is_empty() && lights.iter().any(Emitter::is_environment) {
             lights.to_mut().iter_mut().for_each(|light| *light = behind(*light, &buffers.portals));
@@ -48,10 +54,7 @@ impl<'a> BoundScene<'a> {
         for (index, material) in &buffers.textured {
             materials.to_mut()[*index] = material.bound()?;
         }
-        let bvh = Bvh::new(&buffers.nodes, buffers.surfaces.len())?;
-        let bound = Self { buffers, lights, materials, bvh };
-        Scene::new(bound.bvh, bound.tables())?;
-        Ok(bound)
+        Ok(Self { buffers, lights, materials, bvh })
     }
 
     fn tables(&self) -> Tables<'_, AnyShape, AnyLight<'_>, AnyMaterial<'_>> {
@@ -68,9 +71,9 @@ impl<'a> BoundScene<'a> {
     /// The scene, borrowed.
     ///
     /// # Panics
-    /// Never: this very scene was made once when the tables were bound.
+    /// Never: this very scene was made once when the buffers were.
     #[must_use]
     pub fn scene(&self) -> AnyScene<'_> {
-        Scene::new(self.bvh, self.tables()).expect("checked when the tables were bound")
+        Scene::known_to_fit(self.bvh, self.tables()).expect("checked when the buffers were made")
     }
 }

@@ -2,11 +2,9 @@
 
 use super::painted::{Emitted, PaintedBuffer};
 use super::primitives::{Primitive, list};
-use super::{
-    BoundScene, BuildError, Description, EnvironmentDescription, EnvironmentTables, LightTreeBuffers,
-    Material, build_tree,
-};
-use crate::bvh::Node;
+use super::surroundings::EnvironmentBuffer;
+use super::{BoundScene, BuildError, Description, LightTreeBuffers, Material, build_tree};
+use crate::bvh::{Bvh, Node};
 use crate::choose::{LightTree, PowerTable};
 use crate::geom::Aabb;
 use crate::light::{AnyLight, Emitter, Portal};
@@ -30,7 +28,7 @@ pub struct SceneBuffers {
     pub(super) object_spaces: Vec<ObjectSpace>,
     pub(super) lights: Vec<AnyLight<'static>>,
     pub(super) painted: Vec<PaintedBuffer>,
-    pub(super) environments: Vec<(EnvironmentDescription, EnvironmentTables)>,
+    pub(super) environments: Vec<EnvironmentBuffer>,
     pub(super) portals: Vec<Portal>,
     pub(super) materials: Vec<AnyMaterial<'static>>,
     /// Those that have textures, each with its index.
@@ -83,6 +81,8 @@ impl SceneBuffers {
         let (primitives, degenerate) = list(description)?;
         let boxes: Vec<Aabb> =
             primitives.iter().map(|p| p.shape(description).map_or(Aabb::EMPTY, |s| s.bounds())).collect();
+        let environments =
+            description.environments.iter().map(EnvironmentBuffer::new).collect::<Result<_, _>>()?;
         let tree = build_tree(&boxes)?;
         let bounds = boxes.iter().fold(Aabb::EMPTY, |a, b| a.union(*b));
         drop(boxes);
@@ -94,7 +94,7 @@ impl SceneBuffers {
             object_spaces: Vec::new(),
             lights: Vec::new(),
             painted: Vec::new(),
-            environments: description.environments.iter().map(with_tables).collect(),
+            environments,
             portals: description.portals.clone(),
             materials: description.materials.iter().map(|m| AnyMaterial::Plain(m.bsdf)).collect(),
             textured: textured(&description.materials),
@@ -104,6 +104,7 @@ impl SceneBuffers {
             stack: 0,
         };
         buffers.place(description, &primitives, &tree.order)?;
+        buffers.stack = BoundScene::checked(&buffers)?.scene().bvh().stack_needed();
         buffers.prepare_choices(0.5 * bounds.diagonal())?;
         Ok(buffers)
     }
@@ -192,27 +193,25 @@ impl SceneBuffers {
     /// Fills the table of cumulative powers, which stays empty where there is no power, and builds the
     /// tree of lights.
     pub(super) fn prepare_choices(&mut self, scene_radius: f32) -> Result<(), BuildError> {
-        let bound = BoundScene::new(self)?;
+        let bound = self.bind();
         let lights = bound.scene().lights();
-        let stack = bound.scene().bvh().stack_needed();
         let light_tree = LightTreeBuffers::new(lights);
         light_tree.tree()?;
         let mut table = vec![0.0; lights.len()];
-        if PowerTable::fill(&mut table, |i| lights[i].power(scene_radius)) {
-            self.power = table;
-        }
+        let has_power = PowerTable::fill(&mut table, |i| lights[i].power(scene_radius));
+        self.power = if has_power { table } else { Vec::new() };
         self.light_tree = light_tree;
-        self.stack = stack;
         Ok(())
     }
 
     /// Binds the tables to one another: what a scene borrows from.
     ///
     /// # Panics
-    /// Never: [`SceneBuffers::new`] has done this very thing once, and nothing has changed since.
+    /// Never: [`SceneBuffers::new`] has checked this very thing, and nothing has changed since.
     #[must_use]
     pub fn bind(&self) -> BoundScene<'_> {
-        BoundScene::new(self).expect("checked when the buffers were made")
+        let bvh = Bvh::known_to_fit(&self.nodes, self.stack);
+        BoundScene::new(self, bvh).expect("checked when the buffers were made")
     }
 
     /// Powers of the lights for choosing among them; `None` when no light has any.
@@ -262,17 +261,8 @@ impl SceneBuffers {
                 + size_of_val(&*self.portals)
                 + size_of_val(&*self.materials)
                 + size_of_val(&*self.power)
-                + self
-                    .environments
-                    .iter()
-                    .map(|(e, t)| size_of_val(&*e.image.texels) + t.bytes())
-                    .sum::<usize>()
+                + self.environments.iter().map(EnvironmentBuffer::bytes).sum::<usize>()
                 + self.light_tree.bytes(),
         }
     }
-}
-
-/// An environment with the tables by which it is sampled.
-fn with_tables(environment: &EnvironmentDescription) -> (EnvironmentDescription, EnvironmentTables) {
-    (environment.clone(), EnvironmentTables::new(&environment.image, environment.density))
 }

@@ -56,8 +56,20 @@ pub struct EnvironmentDescription {
     pub image: Arc<Image>,
     /// A rotation, or one with a mirror.
     pub to_world: Mat3,
+    /// What the radiance is multiplied with, 0 or more.
+    pub scale: f32,
     /// How directions toward it are drawn.
     pub density: EnvironmentDensity,
+}
+
+impl EnvironmentDescription {
+    /// A picture as bright as it says, drawn as suits it.
+    ///
+    /// * `to_world` – a rotation, or one with a mirror
+    #[must_use]
+    pub fn new(image: Image, to_world: Mat3) -> Self {
+        Self { image: Arc::new(image), to_world, scale: 1.0, density: EnvironmentDensity::default() }
+    }
 }
 
 /// A linear picture.

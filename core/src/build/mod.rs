@@ -11,6 +11,7 @@ mod painted;
 mod primitives;
 mod relight;
 mod sky;
+mod surroundings;
 mod texture;
 mod tree;
 

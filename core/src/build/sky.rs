@@ -2,11 +2,10 @@
 
 use super::{Description, EnvironmentDescription, Image};
 use crate::Rgb;
-use crate::light::{AnyLight, DistantDisk, Emitter, EnvironmentDensity, LightError};
+use crate::light::{AnyLight, DistantDisk, Emitter, LightError};
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 use core::fmt;
 use glam::{DVec3, Mat3};
-use std::sync::Arc;
 use std::vec::Vec;
 
 /// Columns and rows of the picture of a sky: a texel is 0.7°, and the middle row is the horizon.
@@ -202,12 +201,7 @@ impl Sky {
         let sun = self.sun()?;
         description.lights.retain(|light| !light.is_environment());
         description.lights.push(AnyLight::DistantDisk(sun));
-        description.environments = [EnvironmentDescription {
-            image: Arc::new(self.image()),
-            to_world: Mat3::IDENTITY,
-            density: EnvironmentDensity::Auto,
-        }]
-        .to_vec();
+        description.environments = [EnvironmentDescription::new(self.image(), Mat3::IDENTITY)].to_vec();
         Ok(())
     }
 }

@@ -52,6 +52,14 @@ impl<'a, const STACK: usize> Bvh<'a, STACK> {
         Ok(Self { nodes, stack_needed })
     }
 
+    /// A tree that was checked before, which takes a look at every node.
+    ///
+    /// * `stack_needed` – what [`Bvh::stack_needed`] said of it
+    #[cfg(feature = "build")]
+    pub(crate) const fn known_to_fit(nodes: &'a [Node], stack_needed: usize) -> Self {
+        Self { nodes, stack_needed }
+    }
+
     /// Stack entries that the worst ray could need, at most [`STACK`].
     #[must_use]
     pub const fn stack_needed(&self) -> usize {

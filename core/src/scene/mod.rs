@@ -86,6 +86,14 @@ impl<'a, S: Shape, L: Emitter, M: Material, const STACK: usize> Scene<'a, S, L, 
     /// That the tree fits the surfaces is [`Bvh::new`]'s business, to which their number has been told.
     pub fn new(bvh: Bvh<'a, STACK>, tables: Tables<'a, S, L, M>) -> Result<Self, SceneError> {
         tables.check_surfaces()?;
+        Self::known_to_fit(bvh, tables)
+    }
+
+    /// [`Scene::new`] for tables whose surfaces were checked before, which takes a look at each.
+    ///
+    /// # Errors
+    /// When a light that surrounds the scene is not among the last.
+    pub(crate) fn known_to_fit(bvh: Bvh<'a, STACK>, tables: Tables<'a, S, L, M>) -> Result<Self, SceneError> {
         Ok(Self {
             bvh,
             tables,

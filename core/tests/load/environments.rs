@@ -143,4 +143,10 @@ fn an_exported_map_is_the_same_map() {
     export_mitsuba(&loaded.description, &path).expect("a scene can be written");
     let again = load(&path, &LoadOptions::default()).expect("what was written can be read");
     assert_eq!(again.description.environments, loaded.description.environments);
+    let mut brighter = loaded.description.clone();
+    brighter.environments[0].scale = 2.0;
+    export_mitsuba(&brighter, &path).expect("a scene can be written");
+    let again = load(&path, &LoadOptions::default()).expect("what was written can be read");
+    let [texels, before] = [&again.description, &brighter].map(|d| &d.environments[0].image.texels);
+    assert!(texels.iter().zip(before).all(|(texel, before)| *texel == *before * 2.0));
 }

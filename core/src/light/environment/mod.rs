@@ -31,6 +31,7 @@ pub struct EnvironmentMap<'a> {
     texels: &'a [Rgb],
     grid: Grid,
     to_local: Mat3,
+    scale: f32,
     mean: f32,
     table: Option<EnvironmentTable<'a>>,
 }
@@ -54,13 +55,50 @@ impl<'a> EnvironmentMap<'a> {
             let (x, y) = (index as u32 % width, index as u32 / width);
             return Err(LightError::Texel { x, y, radiance: texels[index] });
         }
+        let grid = Grid { width, height };
+        let (to_local, mean) = (Mat3::IDENTITY, mean(texels, &grid));
+        Self { texels, grid, to_local, scale: 1.0, mean, table: None }.turned(to_world)
+    }
+
+    /// Turns the map; its table stays right.
+    ///
+    /// * `to_world` – a rotation, or one with a mirror, in place of the one before
+    ///
+    /// # Errors
+    /// When the transform is no rotation.
+    pub fn turned(self, to_world: Mat3) -> Result<Self, LightError> {
         let to_local = to_world.transpose();
         let off = to_local * to_world - Mat3::IDENTITY;
-        if !off.to_cols_array().iter().all(|v| v.abs() <= RIGID) {
-            return Err(LightError::NotARotation);
+        if off.to_cols_array().iter().all(|v| v.abs() <= RIGID) {
+            Ok(Self { to_local, ..self })
+        } else {
+            Err(LightError::NotARotation)
         }
-        let grid = Grid { width, height };
-        Ok(Self { texels, grid, to_local, mean: mean(texels, &grid), table: None })
+    }
+
+    /// Makes the map brighter or darker; its table stays right.
+    ///
+    /// * `scale` – what the radiance of each texel is multiplied with, 0 or more, in place of the scale before
+    ///
+    /// # Errors
+    /// When the scale is negative or not finite, or the brightest texel is no longer finite.
+    pub fn scaled(self, scale: f32) -> Result<Self, LightError> {
+        let emission = Rgb::splat(scale);
+        if scale < 0.0 {
+            return Err(LightError::NegativeEmission { emission });
+        }
+        if !emission.is_valid() {
+            return Err(LightError::NotFinite { field: "scale" });
+        }
+        // No factor up to 1 takes a number out of range.
+        let too_bright = |t: &Rgb| scale > 1.0 && !(*t * scale).is_valid();
+        match self.texels.iter().position(too_bright) {
+            Some(index) => {
+                let (x, y) = (index as u32 % self.grid.width, index as u32 / self.grid.width);
+                Err(LightError::Texel { x, y, radiance: self.texels[index] * scale })
+            }
+            None => Ok(Self { scale, ..self }),
+        }
     }
 
     /// Draws directions by a table.
@@ -73,6 +111,17 @@ impl<'a> EnvironmentMap<'a> {
         } else {
             Err(LightError::Table { width: self.grid.width, height: self.grid.height })
         }
+    }
+
+    /// The same map, borrowed anew from where its texels and its table are now: nothing is checked again.
+    #[cfg(feature = "build")]
+    pub(crate) const fn over<'b>(
+        &self,
+        texels: &'b [Rgb],
+        table: Option<EnvironmentTable<'b>>,
+    ) -> EnvironmentMap<'b> {
+        let Self { grid, to_local, scale, mean, .. } = *self;
+        EnvironmentMap { texels, grid, to_local, scale, mean, table }
     }
 
     /// Columns and rows.
@@ -136,7 +185,7 @@ impl<'a> EnvironmentMap<'a> {
     fn lookup(&self, place: &Place) -> Rgb {
         let corners = self.corners(place.x, place.y);
         let channel = |c: fn(&Rgb) -> f32| bilinear(corners.each_ref().map(c), place.s, place.t);
-        Rgb::new(channel(|t| t.r), channel(|t| t.g), channel(|t| t.b))
+        Rgb::new(channel(|t| t.r), channel(|t| t.g), channel(|t| t.b)) * self.scale
     }
 }
 
@@ -245,8 +294,8 @@ impl Emitter for EnvironmentMap<'_> {
         self.table.is_some_and(|table| table.offset > 0.0)
     }
 
-    /// `4π² R²` times the mean radiance.
+    /// `4π² R²` times the mean radiance (W).
     fn power(&self, scene_radius: f32) -> f32 {
-        4.0 * num::PI * num::PI * scene_radius * scene_radius * self.mean
+        4.0 * num::PI * num::PI * scene_radius * scene_radius * self.mean * self.scale
     }
 }

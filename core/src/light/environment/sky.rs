@@ -243,6 +243,7 @@ impl EnvironmentMap<'_> {
                 view.weights[above + (y / 2 * parents + x / 2) as usize] += weight;
             }
         }
+        view.irradiance *= self.scale;
         view.irradiance.is_finite().then_some(view)
     }
 

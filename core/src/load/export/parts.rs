@@ -224,6 +224,9 @@ pub(super) fn environment(xml: &mut Xml, map: &EnvironmentDescription, file: &st
     let [x, y, z] = [map.to_world.x_axis, map.to_world.y_axis, map.to_world.z_axis].map(|v| v.as_dvec3());
     xml.open_plugin("emitter", "envmap", None);
     xml.property("string", "filename", file);
+    if map.scale != 1.0 {
+        xml.float("scale", map.scale);
+    }
     matrix(xml, [x, y, z, DVec3::ZERO]);
     xml.close("emitter");
 }

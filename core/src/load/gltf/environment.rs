@@ -5,13 +5,12 @@ use super::cube::CubeMap;
 use super::document::{ImageLight, Scene};
 use super::source::{Source, entry};
 use crate::build::{EnvironmentDescription, Image};
-use crate::light::{EnvironmentDensity, EnvironmentMap};
+use crate::light::EnvironmentMap;
 use crate::load::image::read_rgbd_from;
 use crate::load::{MAX_TEXELS, Problem};
 use glam::DQuat;
 use std::format;
 use std::path::PathBuf;
-use std::sync::Arc;
 use std::vec::Vec;
 
 /// The light around a scene; `None` where it has none.
@@ -47,7 +46,7 @@ fn surround(source: &Source<'_>, light: &ImageLight) -> Result<EnvironmentDescri
     let to_world = glam::DMat3::from_quat(rotation.normalize()).as_mat3();
     let refused = |source| Problem::Map { path: PathBuf::from("specularImages"), source };
     EnvironmentMap::new(&image.texels, image.width, image.height, to_world).map_err(refused)?;
-    Ok(EnvironmentDescription { image: Arc::new(image), to_world, density: EnvironmentDensity::Auto })
+    Ok(EnvironmentDescription::new(image, to_world))
 }
 
 /// Refuses what breaks the rules, before a picture is read.

@@ -5,15 +5,12 @@ use super::element::Element;
 use super::properties::Properties;
 use super::texture;
 use crate::build::{Emission, EnvironmentDescription, Geometry};
-use crate::light::{
-    AnyLight, Constant, Directional, EnvironmentDensity, EnvironmentMap, LightError, Point, Portal, Spot,
-};
+use crate::light::{AnyLight, Constant, Directional, EnvironmentMap, LightError, Point, Portal, Spot};
 use crate::load::{Encoding, LoadError, Problem, read_image_from};
 use crate::shape::AnyShape;
 use glam::{DMat3, DMat4, DVec3, Mat3};
 use std::borrow::ToOwned;
 use std::format;
-use std::sync::Arc;
 
 const FREE: [&str; 5] = ["point", "spot", "directional", "constant", "envmap"];
 
@@ -124,7 +121,7 @@ fn environment(
     image.texels.iter_mut().for_each(|texel| *texel *= scale);
     EnvironmentMap::new(&image.texels, image.width, image.height, to_world)
         .map_err(|source| refused(Problem::Map { path, source }))?;
-    Ok(EnvironmentDescription { image: Arc::new(image), to_world, density: EnvironmentDensity::Auto })
+    Ok(EnvironmentDescription::new(image, to_world))
 }
 
 /// A transform that turns and mirrors; where it moves things to is no matter to what is infinitely far.
