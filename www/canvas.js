@@ -62,7 +62,7 @@ export class Screen {
       this.#context.beginPath();
       this.#context.rect(left, 0, right - left, height);
       this.#context.clip();
-      this.#context.imageSmoothingQuality = 'high';
+      this.#context.imageSmoothingQuality = 'low';
       this.#context.drawImage(this.#small, 0, 0, width, height);
       this.#context.restore();
     });

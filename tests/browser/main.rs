@@ -12,5 +12,6 @@ mod controls;
 mod driver;
 mod files;
 mod measure;
+mod pace;
 mod page;
 mod pictures;

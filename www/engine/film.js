@@ -6,11 +6,13 @@ import { Progress, Refinement } from '../halflight.js';
 export const WORDS = 8;
 
 export class Film {
+  #words;
+  #floats;
+  #progress;
+
   constructor(width, height) {
     this.width = width;
     this.height = height;
-    this.words = new Uint32Array(WORDS * width * height);
-    this.floats = new Float32Array(this.words.buffer);
     /** Samples of a pixel in the mean, and of the one that has most. */
     this.samples = 0;
     this.most = 1;
@@ -20,12 +22,24 @@ export class Film {
     this.busy = 0;
     /** What each pass has led to: { samples, seconds, error }. */
     this.history = [];
-    this.progress = new Progress();
     this.error = undefined;
   }
 
   free() {
-    this.progress.free();
+    this.#progress?.free();
+    this.#progress = undefined;
+  }
+
+  /** The pixels; most films of something that moves are gone before there are any. */
+  get words() {
+    this.#words ??= new Uint32Array(WORDS * this.width * this.height);
+    return this.#words;
+  }
+
+  /** The same bits as numbers. */
+  get floats() {
+    this.#floats ??= new Float32Array(this.words.buffer);
+    return this.#floats;
   }
 
   /** A copy of the pixels of a tile. */
@@ -85,8 +99,9 @@ export class Film {
   /** Takes note of a pass over the whole picture. */
   record(samples, sum, values) {
     this.samples = samples;
-    this.progress.record(samples, sum, values);
-    this.error = this.progress.error();
+    this.#progress ??= new Progress();
+    this.#progress.record(samples, sum, values);
+    this.error = this.#progress.error();
     if (this.error !== undefined) {
       this.history.push({ samples, seconds: this.busy / 1000, error: this.error });
     }

@@ -2,11 +2,12 @@
 // get passes that double the samples. And quick frames at a lower resolution while something moves.
 
 import { Film } from './film.js';
+import { Pace } from './pace.js';
 
 /** How long a worker should be busy with one tile (ms): no longer than a change may wait. */
 const TILE_MS = 30;
-/** How long all workers together should take for a frame while something moves (ms). */
-const FRAME_MS = 22;
+/** How long workers may be busy with the first frame of all (ms). */
+const FIRST_FRAME_MS = 16;
 /** How long nothing must have moved before the picture is refined (ms). */
 const STILL_MS = 140;
 /** How often something is said about it (ms). */
@@ -30,6 +31,8 @@ export class Renderer extends EventTarget {
   /** Frames of late, for telling how many there are in a second. */
   frames = [];
   elapsed = 0;
+  /** How large the frames are. */
+  pace = new Pace();
   /** Called before a frame, for telling the workers what has moved. */
   prepare = () => {};
 
@@ -63,6 +66,7 @@ export class Renderer extends EventTarget {
 
   /** As `restart`, for something that is being moved: quick frames first. */
   move(width, height, sides) {
+    if (!this.#moving) this.pace.begin(this.rate * (FIRST_FRAME_MS / 1000));
     this.#moving = this.#due = true;
     this.#moved = performance.now();
     this.restart(width, height, sides);
@@ -161,18 +165,19 @@ export class Renderer extends EventTarget {
     const generation = this.#generation;
     const { width, height } = this.films[0];
     const sides = this.films.length;
-    const pixels = Math.max(this.rate * (FRAME_MS / 1000) / sides, 2000);
-    const scale = Math.max(1, Math.min(8, Math.sqrt((width * height) / pixels)));
-    const size = [Math.max(1, Math.round(width / scale)), Math.max(1, Math.round(height / scale))];
+    const size = this.pace.size(width, height, sides);
+    const pixels = size[0] * size[1] * sides;
     this.#due = false;
-    this.prepare();
     const start = performance.now();
+    this.prepare();
     const films = await Promise.all(this.films.map((_, side) => this.#quick(side, size)));
     const busy = films.reduce((sum, film) => sum + film.busy, 0);
-    this.#measure(size[0] * size[1] * sides, busy / this.#pool.workers.length);
+    this.#measure(pixels, busy / this.#pool.workers.length);
     if (generation !== this.#generation && this.films.length !== sides) return;
     this.frames = [...this.frames.filter((t) => start - t < 1000), performance.now()];
     this.#tell('frame', { films });
+    // What the page has to draw is drawn while it waits for the next frame, and counts as that one's.
+    this.pace.took(performance.now() - start, pixels);
     // What has not moved since is not worth another frame.
     if (generation === this.#generation) {
       await this.#rest(Math.max(0, STILL_MS - (performance.now() - this.#moved)));
@@ -182,7 +187,6 @@ export class Renderer extends EventTarget {
   /** One sample for each pixel of a small film, a band to each worker. */
   async #quick(side, [width, height]) {
     const film = new Film(width, height);
-    film.free();
     const { workers } = this.#pool;
     await Promise.all(workers.map(async (worker, i) => {
       const edge = (k) => Math.round((height * k) / workers.length);
