@@ -7,7 +7,7 @@ import { legend, rendered, showLegend } from './display.js';
 import { Renderer } from './engine/renderer.js';
 import { Overlay } from './overlay.js';
 import { CHOICES, encode, lightEdit, lookEdit } from './state.js';
-import { aimed } from './ui/light.js';
+import { aimed, turned } from './ui/light.js';
 import { chart } from './ui/chart.js';
 
 /** Samples of a probe: at once, and when the picture is still. */
@@ -62,7 +62,7 @@ export class App {
 
   say(text, bad = false) {
     const message = byId('message');
-    message.textContent = text;
+    if (message.textContent !== text) message.textContent = text;
     message.classList.toggle('bad', bad);
   }
 
@@ -95,9 +95,7 @@ export class App {
     if (probe && loading === this.#loading && !this.state.camera) this.orbit = new Orbit(this.#author, probe.distance);
   }
 
-  get pool() {
-    return this.#pool;
-  }
+  get pool() { return this.#pool; }
 
   /** Other workers. */
   use(pool) {
@@ -218,6 +216,11 @@ export class App {
     this.setLight({ ...light, position, direction });
   }
 
+  /** Turns the chosen light about the vertical (rad). */
+  turnLight(angle) {
+    this.setLight(turned(this.currentLight(), angle));
+  }
+
   setAim(aim) {
     this.state.aim = aim;
     this.keep();
@@ -260,6 +263,12 @@ export class App {
     this.keep();
   }
 
+  /** The picture from its first sample. */
+  restart() {
+    this.renderer.restart(...this.size, this.sides);
+    this.panels.status.show();
+  }
+
   setWidth(width) {
     this.state.width = width;
     this.fit();
@@ -284,14 +293,13 @@ export class App {
   setAdaptive(adaptive) {
     this.state.adaptive = this.renderer.adaptive = adaptive;
     this.keep();
-    this.renderer.restart(...this.size, this.sides);
+    this.restart();
   }
 
   setEqual(equal) {
-    this.state.equal = equal;
-    this.renderer.equal = equal;
+    this.state.equal = this.renderer.equal = equal;
     this.keep();
-    this.renderer.restart(...this.size, this.sides);
+    this.restart();
   }
 
   setSplit(split) {
@@ -352,7 +360,7 @@ export class App {
 
   fit() {
     if (!this.orbit) return;
-    if (this.#resize()) this.renderer.restart(...this.size, this.sides);
+    if (this.#resize()) this.restart();
     this.refresh();
   }
 

@@ -49,7 +49,7 @@ export class Overlay {
   }
 
   #put(orbit, light) {
-    const placed = light?.editable && !['directional', 'distant', 'constant', 'none'].includes(light.kind);
+    const placed = light && !['directional', 'distant', 'constant', 'map', 'none'].includes(light.kind);
     this.#handle.hidden = !placed;
     if (!placed) return;
     const [width, height] = this.#size;

@@ -1,5 +1,7 @@
 // Mouse, touch and keys on the picture.
 
+import { canTurn } from './ui/light.js';
+
 /** A press that moves less than this is a click (CSS pixels). */
 const CLICK = 5;
 
@@ -11,6 +13,7 @@ export function attach(canvas, app) {
   const pointers = new Map();
   let moved = 0;
   let pan = false;
+  let turns = false;
 
   const size = () => canvas.getBoundingClientRect();
   const spread = () => {
@@ -23,6 +26,7 @@ export function attach(canvas, app) {
     pointers.set(event.pointerId, { x: event.clientX, y: event.clientY });
     moved = pointers.size > 1 ? CLICK : 0;
     pan = event.button === 2 || event.button === 1 || event.shiftKey;
+    turns = event.altKey && canTurn(app.currentLight());
   });
 
   canvas.addEventListener('pointermove', (event) => {
@@ -35,6 +39,10 @@ export function attach(canvas, app) {
     if (moved < CLICK) return;
     canvas.classList.add('moving');
     const { width } = size();
+    if (turns && pointers.size === 1) {
+      app.turnLight((TURN * dx) / width);
+      return;
+    }
     if (pointers.size > 1) {
       app.orbit.zoom(before / Math.max(spread(), 1));
       app.orbit.pan(-dx / width, dy / width);
@@ -52,6 +60,7 @@ export function attach(canvas, app) {
     if (pointers.size > 0) return;
     if (moved >= CLICK) {
       app.released();
+      if (turns) app.panels.light.show();
     } else if (event.type === 'pointerup' && event.button === 0) {
       const { left, top, width, height } = size();
       app.probeAt((event.clientX - left) / width, (event.clientY - top) / height);
@@ -80,6 +89,9 @@ export function attach(canvas, app) {
     } else if (event.key === '-') {
       app.orbit.zoom(1 / 0.94);
       app.cameraMoved();
+    } else if ((event.key === '[' || event.key === ']') && canTurn(app.currentLight())) {
+      app.turnLight(event.key === '[' ? -KEY_TURN : KEY_TURN);
+      app.panels.light.show();
     } else if (event.key === 'Enter') {
       app.probeAt(0.5, 0.5);
     } else if (event.key === 'Home') {

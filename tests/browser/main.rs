@@ -11,6 +11,7 @@
 mod controls;
 mod driver;
 mod files;
+mod lights;
 mod measure;
 mod pace;
 mod page;

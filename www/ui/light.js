@@ -8,10 +8,12 @@ const KINDS = {
   rectangle: 'rectangle', disk: 'disk', sphere: 'sphere', cylinder: 'cylinder', point: 'point', spot: 'spot',
   directional: 'directional', distant: 'sun', constant: 'environment, even', none: 'none',
 };
-const PLACED = ['rectangle', 'disk', 'sphere', 'cylinder', 'point', 'spot'];
+/** Kinds that keep their form. */
+const RIGID = { mesh: 'mesh', triangle: 'triangle', painted: 'painted', map: 'environment map' };
+const PLACED = ['rectangle', 'disk', 'sphere', 'cylinder', 'point', 'spot', 'mesh', 'triangle', 'painted'];
 const AIMED = ['rectangle', 'disk', 'spot'];
 const PARALLEL = ['directional', 'distant'];
-const UNITS = { directional: ' W/m²', distant: ' W/m²', constant: ' W/m²sr', mesh: ' W/m²sr', triangle: ' W/m²sr', painted: '×' };
+const UNITS = { directional: ' W/m²', distant: ' W/m²', constant: ' W/m²sr', mesh: ' W/m²sr', triangle: ' W/m²sr', painted: '×', map: '×' };
 /** Most lights that a scene is given here. */
 const MOST = 16;
 /** Full angles of a new light (degrees): of a spot, all and undimmed; of a sun, the true one's. */
@@ -19,6 +21,8 @@ const ANGLES = { spot: [60, 40], distant: [0.533, 0.533] };
 
 const toCode = (v) => Math.round(255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * v ** (1 / 2.4) - 0.055));
 const fromCode = (c) => (c <= 10 ? c / 255 / 12.92 : ((c / 255 + 0.055) / 1.055) ** 2.4);
+
+const degrees = (v) => `${Math.round(v)}`.replace('-', '−');
 
 /** The colour of a strength as a picker has it, and how strong it is. */
 function split(strength) {
@@ -88,7 +92,7 @@ export class LightPanel {
     if (lights.length > 1) {
       const kind = (l, i) => state.lights[i]?.kind ?? l.kind;
       // A light without a name has that of the kind that it had.
-      const named = (l, i) => `${i + 1}: ${l.name in KINDS ? KINDS[kind(l, i)] : l.name}`;
+      const named = (l, i) => `${i + 1}: ${l.name in KINDS ? KINDS[kind(l, i)] : RIGID[l.name] ?? l.name}`;
       const names = Object.fromEntries(lights.map((l, i) => [i, named(l, i)]));
       rows.append(select('Which', names, String(state.light), (i) => this.#app.chooseLight(Number(i))));
     }
@@ -126,10 +130,18 @@ export class LightPanel {
     const most = Math.max(strength, 1e-6);
     rows.push(slider('Intensity', { min: most / 30, max: most * 30, value: most, log: true, unit: UNITS[light.kind] ?? ' W/sr' },
       (v) => set({ strength: joined(picker.value, v) })));
-    rows.push(row('Colour', picker));
-    if (editable && light.kind !== 'constant') rows.push(...this.#place(light, radius, set));
-    if (!editable) rows.push(el('p', { className: 'note' }, `A light of kind ${light.kind} stays where it is.`));
+    if (light.kind !== 'map') rows.push(row('Colour', picker));
+    if (light.kind === 'map') rows.push(...this.#turn(light, set));
+    else if (light.kind !== 'constant') rows.push(...this.#place(light, radius, set));
+    if (!editable && light.kind !== 'map') {
+      rows.push(el('p', { className: 'note' }, `${light.kind === 'painted' ? 'A painted light' : 'A light made of triangles'} keeps its form: it can be moved, made brighter and given another colour.`));
+    }
     return rows;
+  }
+
+  #turn(light, set) {
+    const turned = slider('Turn', { min: -180, max: 180, value: light.size[0], format: degrees, unit: '°' }, (v) => set({ size: [v, 0] }));
+    return [turned, el('p', { className: 'note for-mouse' }, 'Alt and drag in the picture turn it, too.')];
   }
 
   #place(light, radius, set) {
@@ -162,7 +174,6 @@ export class LightPanel {
     if (AIMED.includes(light.kind) || PARALLEL.includes(light.kind)) {
       const turn = (i, v) => { const now = angles(this.#app.currentLight().direction); now[i] = v; set({ direction: direction(...now) }); };
       const [elevation, azimuth] = angles(light.direction);
-      const degrees = (v) => `${Math.round(v)}`;
       rows.push(slider('Elevation', { min: -90, max: 90, value: elevation, format: degrees, unit: '°' }, (v) => turn(0, Math.max(-89.9, Math.min(89.9, v)))));
       rows.push(slider('Azimuth', { min: -180, max: 180, value: azimuth, format: degrees, unit: '°' }, (v) => turn(1, v)));
     }
@@ -177,4 +188,16 @@ export function aimed(light, position, target) {
   const at = add(light.position, light.direction, reach);
   const turned = sub(at, position);
   return length(turned) > 0 ? unit(turned) : light.direction;
+}
+
+/** True for a light so far away that it has a direction and no place. */
+export const canTurn = (light) => light?.kind === 'map' || PARALLEL.includes(light?.kind);
+
+/** Such a light turned about the vertical (rad): what is behind the scene goes to the right. */
+export function turned(light, angle) {
+  const [x, y, z] = light.direction;
+  const [sin, cos] = [Math.sin(angle), Math.cos(angle)];
+  if (light.kind !== 'map') return { ...light, direction: [x * cos - z * sin, y, z * cos + x * sin] };
+  const degrees = light.size[0] - (angle * 180) / Math.PI;
+  return { ...light, size: [degrees - 360 * Math.round(degrees / 360), 0] };
 }
