@@ -70,11 +70,11 @@ export const rendered = (show) => (show === 'visibility' || show === 'occlusion'
 /** The scale beside the picture; undefined for plain radiance. */
 export const legend = (show) => SCALAR[show] && { labels: SCALAR[show].labels, css: SCALAR[show].colours.css };
 
-/** Puts a scale at the top of the picture, or takes it away. */
+/** Puts a scale at the top right of the picture, or takes it away. */
 export function showLegend(element, scale, { left, top, width }) {
   element.hidden = !scale;
   if (!scale) return;
-  Object.assign(element.style, { left: `${left + width / 2 - 90}px`, top: `${top + 10}px` });
+  Object.assign(element.style, { left: `${left + width - 190}px`, top: `${top + 10}px` });
   element.querySelector('.ramp').style.background = scale.css;
   ['low', 'mid', 'high'].forEach((name, i) => { element.querySelector(`.${name}`).textContent = scale.labels[i]; });
 }

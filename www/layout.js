@@ -10,6 +10,8 @@ export function layout(frame, aspect, wanted) {
   const narrow = matchMedia('(max-width: 760px)').matches;
   frame.style.height = narrow ? `${Math.min(frame.clientWidth / aspect, innerHeight * 0.5)}px` : '';
   const [w, h] = [frame.clientWidth, frame.clientHeight];
+  // For the message that lies over it.
+  frame.parentElement.style.setProperty('--frame-height', `${h}px`);
   const width = Math.max(1, Math.floor(Math.min(w, h * aspect)));
   const height = Math.max(1, Math.round(width / aspect));
   const box = { left: (w - width) / 2, top: (h - height) / 2, width, height };

@@ -71,6 +71,7 @@ async function open(app, source) {
 function actions(app) {
   const name = () => app.facts.name || 'halflight';
   byId('pause').onclick = () => app.togglePause();
+  byId('dismiss').onclick = () => app.say('');
   byId('png').onclick = async () => download(await png(app.canvas), `${name()}.png`);
   byId('exr').onclick = () => {
     const film = app.renderer.films[0];
@@ -124,5 +125,6 @@ async function start() {
 
 start().catch((error) => {
   byId('message').textContent = `This browser cannot show the page: ${error.message}`;
+  byId('message').className = 'bad';
   document.body.dataset.state = 'failed';
 });

@@ -79,6 +79,58 @@ fn refined_to_an_error_the_page_and_the_command_line_have_the_same_bits() -> Res
 }
 
 #[test]
+fn another_error_goes_on_from_the_samples_that_are_there() -> Res<()> {
+    with_page("another error", |page| {
+        page.open("", 1)?;
+        page.select("Scene", "penumbra")?;
+        page.wait("halflight.app.facts.name == 'penumbra'")?;
+        let done =
+            "document.body.dataset.state == 'done' && halflight.app.renderer.films[0].tiles?.length == 4";
+        let error = || page.number("halflight.app.renderer.films[0].error");
+        page.run("halflight.app.setTarget(6); halflight.app.setWidth(200)")?;
+        page.wait(done)?;
+        assert!(error()? <= 0.06);
+        page.run("globalThis.film = halflight.app.renderer.films[0]; halflight.app.setTarget(3)")?;
+        page.wait(&format!("halflight.app.renderer.films[0].error <= 0.03 && {done}"))?;
+        assert_eq!(page.run("return film === halflight.app.renderer.films[0]")?, true, "it began anew");
+        // A looser one throws nothing away.
+        let samples = page.number("film.samples")?;
+        page.run("halflight.app.setTarget(8)")?;
+        page.wait(done)?;
+        assert_eq!(page.number("film.samples")?, samples);
+        // What was promised holds against a picture with many samples.
+        let reference = rendered(page.folder.path(), "penumbra --width 200 --spp 1024 --seed 7")?;
+        let (mut sum, pixels) = (0.0, page.pixels()?);
+        for (a, b) in pixels.iter().zip(&reference).map(|(a, b)| (f32::from_bits(*a), f32::from_bits(*b))) {
+            sum += f64::from((a - b) * (a - b) / (b * b + 0.01));
+        }
+        let true_error = (sum / pixels.len() as f64).sqrt();
+        assert!(true_error < 1.2 * 0.03, "{true_error}");
+        // Begun anew it is the command line's, to the last bit.
+        page.run("halflight.app.setTarget(3)")?;
+        page.run(
+            "[...document.querySelectorAll('button')].find((b) => b.textContent == 'Begin anew').click()",
+        )?;
+        page.wait(&format!("halflight.app.renderer.films[0] !== film && {done}"))?;
+        assert!(page.pixels()? == rendered(page.folder.path(), "penumbra --width 200 --error 3")?);
+        Ok(())
+    })
+}
+
+#[test]
+fn a_message_does_not_change_the_picture() -> Res<()> {
+    with_page("a message", |page| {
+        page.open("", 1)?;
+        page.run("globalThis.film = halflight.app.renderer.films[0]; halflight.app.say('Three\\nlines\\nof text.', true)")?;
+        std::thread::sleep(std::time::Duration::from_millis(300));
+        assert_eq!(page.run("return film === halflight.app.renderer.films[0]")?, true, "it began anew");
+        page.run("document.getElementById('dismiss').click()")?;
+        assert_eq!(page.text("message")?, "");
+        Ok(())
+    })
+}
+
+#[test]
 fn a_browser_without_what_the_page_needs_is_told() -> Res<()> {
     with_page("no SIMD", |page| {
         let script = serde_json::json!({ "source": "WebAssembly.validate = () => false" });

@@ -2,10 +2,14 @@
 
 import { digits, el, svg } from './widgets.js';
 
-const [WIDTH, HEIGHT, TOP, BOTTOM, LEFT, GAP] = [292, 168, 14, 30, 34, 22];
+const [WIDTH, HEIGHT, TOP, BOTTOM, LEFT, GAP] = [292, 168, 14, 30, 40, 18];
 const PANEL = (WIDTH - LEFT - GAP) / 2;
 
-const percent = (v) => `${digits(100 * v, 1).replace(/\.0$/, '')} %`;
+/** An error on the scale: beyond 1000 % as a power of ten. */
+function percent(v) {
+  if (v > 11) return `10${[...String(Math.round(Math.log10(100 * v)))].map((d) => '⁰¹²³⁴⁵⁶⁷⁸⁹'[d]).join('')} %`;
+  return `${digits(100 * v, 1).replace(/\.0$/, '')} %`;
+}
 
 /** Powers of ten, or of two where there are few of those, in a range. */
 function ticks(low, high) {
@@ -34,7 +38,9 @@ function panel(histories, key, left, errors, title, format) {
   const across = ticks(low, high);
   for (const [i, t] of across.entries()) {
     parts.push(svg('line', { class: 'grid', x1: x(t), x2: x(t), y1: TOP, y2: HEIGHT - BOTTOM }));
-    if (across.length < 5 || i % 2 === 0) parts.push(svg('text', { x: x(t), y: HEIGHT - BOTTOM + 12, 'text-anchor': 'middle' }, format(t)));
+    // Those at the ends stay within the panel.
+    const anchor = x(t) < left + 12 ? 'start' : x(t) > left + PANEL - 12 ? 'end' : 'middle';
+    if (across.length < 4 || i % 2 === 0) parts.push(svg('text', { x: x(t), y: HEIGHT - BOTTOM + 12, 'text-anchor': anchor }, format(t)));
   }
   points.forEach((line, side) => {
     const name = 'ab'[side];

@@ -17,6 +17,13 @@ export class ShowPanel {
     this.#app = app;
   }
 
+  /** A picture from its first sample. */
+  #again() {
+    const button = el('button', { type: 'button', className: 'add', title: 'Throw the samples away and begin anew' }, 'Begin anew');
+    button.onclick = () => this.#app.restart();
+    return button;
+  }
+
   show() {
     const { state } = this.#app;
     const widths = state.width in WIDTHS ? WIDTHS : { ...WIDTHS, [state.width]: String(state.width) };
@@ -26,6 +33,7 @@ export class ShowPanel {
         (v) => this.#app.setExposure(Math.round(10 * v) / 10)),
       slider('Stop at', { min: 0.05, max: 20, value: state.target, log: true, format: (v) => digits(v, 2), unit: ' %' },
         (v) => this.#app.setTarget(Number(v.toPrecision(2)))),
-      select('Columns', widths, String(state.width), (v) => this.#app.setWidth(Number(v)))));
+      select('Columns', widths, String(state.width), (v) => this.#app.setWidth(Number(v))),
+      this.#again()));
   }
 }

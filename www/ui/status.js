@@ -5,6 +5,12 @@ import { digits } from './widgets.js';
 
 const byId = (id) => document.getElementById(id);
 
+/** Writes what is new: the page is laid out anew for no other. */
+function put(id, text) {
+  const element = byId(id);
+  if (element.textContent !== text) element.textContent = text;
+}
+
 const percent = (error) => (error === undefined ? '–' : `${digits(100 * error, 2)} %`);
 
 /** Samples of a pixel in the mean. */
@@ -33,12 +39,12 @@ export class Status {
     const { films, moving } = renderer;
     if (films.length === 0) return;
     const [film] = films;
-    byId('error').textContent = films.map((f) => percent(moving ? undefined : f.error)).join(' | ');
-    byId('spp').textContent = films.map((f) => mean(f.samples)).join(' | ');
-    byId('rate').textContent = `${digits(renderer.rate / 1e6, 2)} M`;
-    const fps = renderer.frames.length;
-    byId('elapsed').textContent = moving ? `${fps} frames/s` : seconds(renderer.elapsed);
-    byId('size').textContent = `${canvas.width} × ${canvas.height}`;
+    put('error', films.map((f) => percent(moving ? undefined : f.error)).join(' | '));
+    put('spp', films.map((f) => mean(f.samples)).join(' | '));
+    put('rate', `${digits(renderer.rate / 1e6, 2)} M`);
+    put('elapsed-name', moving ? 'frames/s' : 'elapsed');
+    put('elapsed', moving ? String(renderer.frames.length) : seconds(renderer.elapsed));
+    put('size', `${canvas.width} × ${canvas.height}`);
     this.#goal(film, moving);
     const pause = byId('pause');
     pause.setAttribute('aria-pressed', String(renderer.paused));
@@ -57,15 +63,19 @@ export class Status {
 
   #sides(films, state) {
     const bar = byId('split');
+    document.body.classList.toggle('comparing', state.compare);
     bar.hidden = !state.compare;
+    if (!state.compare) {
+      byId('left').hidden = byId('right').hidden = true;
+      return;
+    }
     const { left, top, width, height } = this.#app.box;
     const x = left + state.split * width;
     Object.assign(bar.style, { left: `${x}px`, top: `${top}px`, height: `${height}px` });
     bar.setAttribute('aria-valuenow', String(Math.round(100 * state.split)));
     ['left', 'right'].forEach((name, side) => {
       const label = byId(name);
-      label.hidden = !state.compare;
-      if (!state.compare) return;
+      label.hidden = false;
       const film = films[side];
       const bold = document.createElement('b');
       bold.textContent = named(state.sides[side]);
