@@ -25,20 +25,22 @@ fn first_picture(page: &Page) -> Res<f64> {
     page.number("halflight.app.timing.picture - halflight.app.timing.arrived")
 }
 
-/// Frames a second while the light moves at each frame of the screen.
-fn frames(page: &Page) -> Res<f64> {
-    page.number(
-        "(async () => { const app = halflight.app; let frames = 0; let moving = true; \
-         const count = () => { frames += 1; }; app.renderer.addEventListener('frame', count); \
+/// Frames a second while the light moves at each frame of the screen, and their pixels in the mean.
+fn frames(page: &Page) -> Res<[f64; 2]> {
+    let measured = page.run(
+        "return (async () => { const app = halflight.app; let [frames, pixels] = [0, 0]; let moving = true; \
+         const count = ({ detail: { films: [film] } }) => { frames += 1; pixels += film.width * film.height; }; app.renderer.addEventListener('frame', count); \
          const [x, y, z] = app.lights[0].position; const start = performance.now(); \
          const move = (now) => { if (!moving) return; \
              const t = (now - start) / 500; app.moveLight([x + 0.1 * Math.sin(t), y, z + 0.1 * Math.cos(t)]); \
              requestAnimationFrame(move); }; \
-         requestAnimationFrame(move); await new Promise((resolve) => setTimeout(resolve, 500)); \
-         frames = 0; const from = performance.now(); await new Promise((resolve) => setTimeout(resolve, 3000)); \
+         requestAnimationFrame(move); await new Promise((resolve) => setTimeout(resolve, 1500)); \
+         [frames, pixels] = [0, 0]; const from = performance.now(); await new Promise((resolve) => setTimeout(resolve, 3000)); \
          moving = false; const rate = 1000 * frames / (performance.now() - from); \
-         app.renderer.removeEventListener('frame', count); app.released(); return rate; })()",
-    )
+         app.renderer.removeEventListener('frame', count); app.released(); \
+         return [rate, pixels / frames]; })()",
+    )?;
+    Ok(serde_json::from_value(measured)?)
 }
 
 /// Until the picture as it is at first, 914×609 pixels, is known to 1 % (s).
@@ -91,7 +93,10 @@ fn speed() -> Res<()> {
     with_page("speed", |page| {
         println!("first picture after the module: {:.0} ms", best(|| first_picture(page), f64::min)?);
         page.open("", 1)?;
-        println!("while the light is dragged: {:.0} frames/s", best(|| frames(page), f64::max)?);
+        for _ in 0..RUNS {
+            let [rate, pixels] = frames(page)?;
+            println!("while the light is dragged: {rate:.0} frames/s of {pixels:.0} pixels");
+        }
         for scene in ["still-life", "penumbra", "morning"] {
             let seconds = best(|| to_one_percent(page, scene), f64::min)?;
             println!("{scene} to 1 %: {seconds:.1} s");

@@ -122,6 +122,8 @@ export class LightPanel {
         this.show();
       }));
     }
+    // Where there is no choice, it is said what it is.
+    if (!editable) rows.push(el('div', { className: 'row' }, el('span', { className: 'name' }, 'Kind'), el('span', {}, RIGID[light.kind] ?? light.kind)));
     if (light.kind === 'none') return rows;
     const [colour, strength] = split(light.strength);
     const picker = el('input', { type: 'color' });
