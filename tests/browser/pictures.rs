@@ -189,6 +189,7 @@ fn two_ways_are_compared_and_the_chart_grows() -> Res<()> {
         let early = page.number("document.querySelectorAll('#chart polyline')[1].points.numberOfItems")?;
         page.samples(16)?;
         page.run("halflight.app.renderer.pause(true)")?;
+        assert_eq!(page.text("message")?, "", "a tile was in the middle of a step");
         let late = page.number("document.querySelectorAll('#chart polyline')[1].points.numberOfItems")?;
         assert!(late > early, "{late} points after {early}");
         let words = page.run("return document.querySelector('#chart figcaption').textContent")?;

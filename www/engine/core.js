@@ -59,7 +59,8 @@ export class Core {
   #module;
   #memory;
   #scenes = [];
-  /** Tiles in the middle of a step, two at most. */
+  /** Tiles in the middle of a step, two at most. Those of a scene that is gone may come to the end of theirs: until
+   *  the page begins anew, it may ask for that. */
   #tiles = [];
 
   /** Answers a message. */
@@ -95,7 +96,6 @@ export class Core {
     const scene = open(this.#module, source);
     this.#scenes[side]?.free();
     this.#scenes[side] = scene;
-    for (const lane of this.#tiles.keys()) this.#put(lane);
     const author = { facts: facts(scene), view: view(scene) };
     change(scene, edits);
     return { ...author, lights: lights(scene) };
