@@ -62,6 +62,7 @@ export class Screen {
       this.#context.beginPath();
       this.#context.rect(left, 0, right - left, height);
       this.#context.clip();
+      // Better ones look the same here, and take three times as long: 4.3 ms and 1.5.
       this.#context.imageSmoothingQuality = 'low';
       this.#context.drawImage(this.#small, 0, 0, width, height);
       this.#context.restore();

@@ -173,6 +173,16 @@ fn keys_alone_turn_pause_probe_and_move_the_light() -> Res<()> {
         page.run("document.getElementById('handle').focus()")?;
         page.keys("\u{e014}")?;
         page.wait(&format!("Math.abs(halflight.app.lights[0].position[0] - {x}) > 1e-3"))?;
+        // The controls of two ways take the place of those of one; the focus stays where it was.
+        page.run("document.querySelector('#sampling input').focus()")?;
+        page.keys(" ")?;
+        page.wait("halflight.app.renderer.films.length == 2")?;
+        assert_eq!(
+            page.run("return document.activeElement.labels[0].textContent")?,
+            "Compare two, side by side"
+        );
+        page.keys(" ")?;
+        page.wait("halflight.app.renderer.films.length == 1")?;
         // Every control can be reached, and has a name.
         let nameless = page.run(
             "return [...document.querySelectorAll('button, select, input:not([hidden]), canvas, [role=slider]')] \

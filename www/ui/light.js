@@ -1,7 +1,7 @@
 // The panel of the chosen light.
 
 import { add, dot, length, scale, sub, unit } from '../vector.js';
-import { checkbox, digits, el, numbers, row, select, slider } from './widgets.js';
+import { checkbox, digits, el, numbers, renew, row, select, slider } from './widgets.js';
 
 /** Kinds that can be changed into one another. */
 const KINDS = {
@@ -98,7 +98,7 @@ export class LightPanel {
     }
     if (light) rows.append(...this.#fields(light, lights[state.light].editable));
     if (lights.length < MOST) rows.append(this.#adder(lights.length));
-    this.#root.replaceChildren(rows);
+    renew(this.#root, rows);
   }
 
   /** Adds a light after the last. */

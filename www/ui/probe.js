@@ -40,7 +40,7 @@ const watts = (v) => `${digits(v, 4)} W/m²`;
 
 function density(probe) {
   const rays = Array.from({ length: probe.rays.length / 8 }, (_, i) => probe.rays[8 * i + 4]).filter((p) => p > 0);
-  if (rays.length === 0) return 'δ';
+  if (rays.length === 0) return probe.rays.length > 0 ? 'δ' : '–';
   const [low, high] = [Math.min(...rays), Math.max(...rays)];
   return high / low < 1.005 ? `${digits(high, 4)} sr⁻¹` : `${digits(low, 3)} … ${digits(high, 3)} sr⁻¹`;
 }
@@ -79,7 +79,7 @@ export class ProbePanel {
     }
     this.#root.replaceChildren(
       el('h2', {}, 'Probe', close),
-      el('p', { className: 'big' }, `${digits(100 * fraction, 3)} % `, el('small', {}, `of the light arrives: ${place(fraction, probe.unshadowed)}`)),
+      el('p', { className: 'big' }, el('b', {}, `${digits(100 * fraction, 3)} % `), el('small', {}, `of the light arrives: ${place(fraction, probe.unshadowed)}`)),
       el('div', { className: 'meter' }, meter),
       el('table', {}, el('tbody', {}, ...rows)),
       convergence(probe),

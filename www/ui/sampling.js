@@ -1,7 +1,7 @@
 // How the light is sampled, and what two ways have to say about each other.
 
 import { CHOICES } from '../state.js';
-import { buttons, checkbox, el } from './widgets.js';
+import { buttons, checkbox, el, renew } from './widgets.js';
 
 export class SamplingPanel {
   #root;
@@ -26,12 +26,19 @@ export class SamplingPanel {
       for (const side of sides) grid.append(this.#select(side, name, state.compare ? `${label}, ${['left', 'right'][side]}` : label, values));
     }
     const rows = el('div', { className: 'rows' },
-      checkbox('Compare two, side by side', state.compare, (on) => this.#app.compare(on)), grid);
+      checkbox('Compare two, side by side', state.compare, (on) => this.#compare(on)), grid);
     if (!state.compare) rows.append(checkbox('Samples go where the error is', state.adaptive, (on) => this.#app.setAdaptive(on)));
     if (state.compare) {
       rows.append(buttons('At equal', { samples: 'equal samples', time: 'equal time' }, state.equal, (v) => this.#app.setEqual(v)));
     }
-    this.#root.replaceChildren(rows);
+    renew(this.#root, rows);
+  }
+
+  /** The chart is what one compares for: it comes into sight. */
+  async #compare(on) {
+    await this.#app.compare(on);
+    const behavior = matchMedia('(prefers-reduced-motion: reduce)').matches ? 'auto' : 'smooth';
+    if (on) document.getElementById('chart').scrollIntoView({ block: 'nearest', behavior });
   }
 
   #select(side, name, label, values) {

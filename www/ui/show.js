@@ -1,6 +1,6 @@
 // What is shown of the picture, how bright, how large, how good.
 
-import { digits, el, select, slider } from './widgets.js';
+import { digits, el, renew, select, slider } from './widgets.js';
 
 const SHOW = {
   radiance: 'radiance', visibility: 'visibility of the light', occlusion: 'ambient occlusion',
@@ -27,7 +27,7 @@ export class ShowPanel {
   show() {
     const { state } = this.#app;
     const widths = state.width in WIDTHS ? WIDTHS : { ...WIDTHS, [state.width]: String(state.width) };
-    this.#root.replaceChildren(el('div', { className: 'rows' },
+    renew(this.#root, el('div', { className: 'rows' },
       select('Show', SHOW, state.show, (v) => this.#app.setShow(v)),
       slider('Exposure', { min: -6, max: 6, value: state.exposure, format: (v) => `${v > 0 ? '+' : ''}${v.toFixed(1).replace('-', '−')}`, unit: ' EV' },
         (v) => this.#app.setExposure(Math.round(10 * v) / 10)),

@@ -28,6 +28,16 @@ export function digits(number, count = 3) {
   return value.toFixed(decimals).replace('-', '−');
 }
 
+const named = (control) => control.getAttribute('aria-label') ?? control.labels?.[0]?.textContent ?? control.textContent;
+
+/** Puts new controls in place of old ones; the focus stays with the one of its name. */
+export function renew(root, ...children) {
+  const active = root.contains(document.activeElement) ? named(document.activeElement) : undefined;
+  root.replaceChildren(...children);
+  if (active === undefined) return;
+  [...root.querySelectorAll('button, input, select')].find((control) => named(control) === active)?.focus({ preventScroll: true });
+}
+
 let ids = 0;
 
 /** A label with a control beside it. */
