@@ -3,14 +3,15 @@
 use super::painted::{Emitted, PaintedBuffer};
 use super::primitives::{Primitive, list};
 use super::surroundings::EnvironmentBuffer;
-use super::{BoundScene, BuildError, Description, LightTreeBuffers, Material, build_tree};
+use super::tree::build_tree_of;
+use super::{BoundScene, BuildError, Description, LightTreeBuffers, Material};
 use crate::bvh::{Bvh, Node};
 use crate::choose::{LightTree, PowerTable};
 use crate::geom::Aabb;
 use crate::light::{AnyLight, Emitter, Portal};
 use crate::material::AnyMaterial;
 use crate::scene::{CornerNormals, CornerUvs, NONE, Surface};
-use crate::shape::{AnyShape, Shape};
+use crate::shape::AnyShape;
 use crate::texture::ObjectSpace;
 use core::mem::size_of_val;
 use std::collections::BTreeMap;
@@ -79,13 +80,10 @@ impl SceneBuffers {
     /// When the description contradicts itself; see [`BuildError`].
     pub fn new(description: &Description) -> Result<Self, BuildError> {
         let (primitives, degenerate) = list(description)?;
-        let boxes: Vec<Aabb> =
-            primitives.iter().map(|p| p.shape(description).map_or(Aabb::EMPTY, |s| s.bounds())).collect();
         let environments =
             description.environments.iter().map(EnvironmentBuffer::new).collect::<Result<_, _>>()?;
-        let tree = build_tree(&boxes)?;
-        let bounds = boxes.iter().fold(Aabb::EMPTY, |a, b| a.union(*b));
-        drop(boxes);
+        let tree = build_tree_of(primitives.len(), &|i| primitives[i as usize].bounds(description))?;
+        let bounds = tree.nodes.first().map_or(Aabb::EMPTY, Node::bounds);
         let mut buffers = Self {
             nodes: tree.nodes,
             surfaces: Vec::with_capacity(primitives.len()),

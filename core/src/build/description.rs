@@ -277,6 +277,15 @@ impl CameraDescription {
 }
 
 impl Description {
+    /// Empties the meshes: for a program that has built from them, and wants their memory back.
+    pub fn forget_meshes(&mut self) {
+        for object in &mut self.objects {
+            if let Geometry::Mesh(mesh) = &mut object.geometry {
+                *mesh = Mesh::default();
+            }
+        }
+    }
+
     /// Number of triangles, those of meshes included.
     #[must_use]
     pub fn triangle_count(&self) -> usize {

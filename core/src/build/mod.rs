@@ -8,6 +8,7 @@ mod environment;
 mod error;
 mod light_tree;
 mod painted;
+mod parts;
 mod primitives;
 mod relight;
 mod sky;

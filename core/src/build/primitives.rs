@@ -1,9 +1,10 @@
 //! The primitives of a description, numbered one after the other.
 
 use super::{BuildError, Description, Geometry, Mesh, Object};
+use crate::geom::Aabb;
 use crate::light::{AnyLight, AreaLight};
 use crate::scene::{CornerNormals, CornerUvs};
-use crate::shape::{AnyShape, Triangle};
+use crate::shape::{AnyShape, Shape, Triangle};
 use crate::texture::{ObjectSpace, SurfaceUvs};
 use std::string::ToString;
 use std::vec::Vec;
@@ -25,7 +26,11 @@ pub(super) fn list_where(
     description: &Description,
     wanted: impl Fn(&Object) -> bool,
 ) -> Result<(Vec<Primitive>, usize), BuildError> {
-    let mut primitives = Vec::new();
+    let most = |object: &Object| match &object.geometry {
+        Geometry::Shape(_) => 1,
+        Geometry::Mesh(mesh) => mesh.triangles.len(),
+    };
+    let mut primitives = Vec::with_capacity(description.objects.iter().filter(|o| wanted(o)).map(most).sum());
     let mut degenerate = 0;
     for (index, object) in description.objects.iter().enumerate().filter(|(_, object)| wanted(object)) {
         if object.material >= description.materials.len() {
@@ -83,6 +88,16 @@ impl Primitive {
         match &description.objects[self.object as usize].geometry {
             Geometry::Shape(shape) => Some(*shape),
             Geometry::Mesh(mesh) => mesh.triangle(self.triangle as usize).map(AnyShape::Triangle),
+        }
+    }
+
+    /// Its box.
+    pub(super) fn bounds(&self, description: &Description) -> Aabb {
+        match &description.objects[self.object as usize].geometry {
+            Geometry::Shape(shape) => shape.bounds(),
+            Geometry::Mesh(mesh) => {
+                Aabb::around(&mesh.triangles[self.triangle as usize].map(|i| mesh.positions[i as usize]))
+            }
         }
     }
 
