@@ -77,7 +77,7 @@ pub(super) fn keeper(
     let stats = prepared.buffers.stats();
     let header = Header {
         scene: prepared.found.description.name.clone(),
-        fingerprint: fingerprint::of_scene(&mut prepared.found.description),
+        fingerprint: prepared.fingerprint.clone(),
         settings: settings(args, prepared),
         about: About {
             triangles: stats.triangles as u64,

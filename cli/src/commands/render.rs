@@ -5,6 +5,7 @@ use super::keeping::{self, Destination};
 use crate::args::{Environment, Portals, RenderArgs, Technique};
 use crate::driver::{self, Goal, Rendered};
 use crate::failure::{Exit, Failure};
+use crate::fingerprint;
 use crate::goal;
 use crate::interrupt::on_interrupt;
 use crate::keep::Keeper;
@@ -26,10 +27,11 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::thread::available_parallelism;
 use std::time::Instant;
 
-/// A scene ready for rendering.
+/// A scene ready for rendering; its meshes are gone.
 #[derive(Debug)]
 pub(super) struct Prepared {
     pub(super) found: Found,
+    pub(super) fingerprint: String,
     pub(super) buffers: SceneBuffers,
     pub(super) camera: Camera,
     pub(super) film: Film,
@@ -165,7 +167,7 @@ pub(super) fn pool(threads: Option<usize>) -> Result<ThreadPool, Failure> {
 pub(super) fn prepare(args: &RenderArgs, begin: Instant) -> Result<Prepared, Failure> {
     let mut seconds = Seconds::default();
     let name = scene::shown(args.scene.as_deref());
-    let (found, has_portals) = {
+    let (mut found, has_portals) = {
         let _step = Step::begin(format!("reading {name}"), args.quiet);
         let start = Instant::now();
         let mut found = scene::find(args.scene.as_deref(), &args.reading)?;
@@ -188,7 +190,10 @@ pub(super) fn prepare(args: &RenderArgs, begin: Instant) -> Result<Prepared, Fai
     let plan = plan::make(&args.choices, &found.description, &buffers.bind()).map_err(|e| e.about(&name))?;
     let goal = goal::make(args, &found.description, begin).map_err(|e| e.about(&name))?;
     let degenerate = buffers.stats().degenerate as u64;
-    let mut prepared = Prepared { found, buffers, camera, film, plan, goal, seconds, has_portals };
+    let fingerprint = fingerprint::of_scene(&mut found.description);
+    found.description.forget_meshes();
+    let mut prepared =
+        Prepared { found, fingerprint, buffers, camera, film, plan, goal, seconds, has_portals };
     if degenerate > 0 {
         prepared.warn(format!("{} without area left out", counted(degenerate, "triangle")));
     }
