@@ -133,6 +133,29 @@ impl<'t> Coarse<'t> {
         }
     }
 
+    /// Luminance that a node sends, times the gain of the table, about: without how its directions differ;
+    /// infinite where `f32` cannot hold it.
+    fn flux(&self, index: usize) -> f32 {
+        let EnvironmentTable { moments, masses, gain, .. } = *self.table;
+        let flux = Rgb::from(moments[index].map(|m| (m * gain).length())).luminance();
+        let is_held = flux.is_finite() && (flux > 0.0 || !(masses[index] > 0.0));
+        if is_held { flux } else { f32::INFINITY }
+    }
+
+    /// Adds the weights of the leaves to those of the nodes above them.
+    fn add_up(&self, weights: &mut [f32; MOST_NODES]) {
+        let mut first = self.table.lobes.len();
+        for level in self.leaf..self.levels.top {
+            let ([columns, rows], parents) = (self.levels.size(level), self.levels.size(level + 1)[0]);
+            first -= self.levels.len(level);
+            let above = first - self.levels.len(level + 1);
+            for (x, y) in (0..rows).flat_map(|y| (0..columns).map(move |x| (x, y))) {
+                let weight = weights[first + (y * columns + x) as usize];
+                weights[above + (y / 2 * parents + x / 2) as usize] += weight;
+            }
+        }
+    }
+
     /// The leaves below a node.
     fn leaves(&self, node: &Node) -> impl Iterator<Item = usize> + use<'_> {
         let down = node.level - self.leaf;
@@ -208,17 +231,20 @@ impl EnvironmentMap<'_> {
         let mut view = SkyView { irradiance: Rgb::BLACK, weights: [0.0; MOST_NODES] };
         let (mut by_flux, mut by_size) = (0.0, 0.0);
         coarse.walk(|node, lobe| {
-            let index = coarse.index(node);
-            let [r, g, b] = coarse.table.moments[index];
-            if node.level == coarse.leaf && clear.holds(coarse.leaf_of(node.at)) {
-                let toward = |m: Vec3| num::larger(normal.dot(m), 0.0);
-                view.irradiance += Rgb::new(toward(r), toward(g), toward(b));
-            } else if node.level == coarse.leaf {
-                let flux = Rgb::new(r.length(), g.length(), b.length()).luminance();
-                let cosine = lobe.cosine(normal);
-                view.weights[index] = cosine * flux;
-                by_flux += cosine * flux;
-                by_size += cosine * lobe.size();
+            if node.level == coarse.leaf {
+                let index = coarse.index(node);
+                let flux = coarse.flux(index);
+                if clear.holds(coarse.leaf_of(node.at)) {
+                    // Where `f32` does not hold the moment, the closed form says nothing.
+                    let toward =
+                        |m: Vec3| if flux < f32::INFINITY { num::larger(normal.dot(m), 0.0) } else { flux };
+                    view.irradiance += Rgb::from(coarse.table.moments[index].map(toward));
+                } else {
+                    let cosine = lobe.cosine(normal);
+                    view.weights[index] = cosine * flux;
+                    by_flux += cosine * flux;
+                    by_size += cosine * lobe.size();
+                }
             }
             lobe.largest_cosine(normal) > 0.0
         });
@@ -232,19 +258,9 @@ impl EnvironmentMap<'_> {
             }
             lobe.largest_cosine(normal) > 0.0
         });
-        let mut first = coarse.table.lobes.len();
-        for level in coarse.leaf..coarse.levels.top {
-            let [columns, rows] = coarse.levels.size(level);
-            let parents = coarse.levels.size(level + 1)[0];
-            first -= coarse.levels.len(level);
-            let above = first - coarse.levels.len(level + 1);
-            for (x, y) in (0..rows).flat_map(|y| (0..columns).map(move |x| (x, y))) {
-                let weight = view.weights[first + (y * columns + x) as usize];
-                view.weights[above + (y / 2 * parents + x / 2) as usize] += weight;
-            }
-        }
+        coarse.add_up(&mut view.weights);
         view.irradiance *= self.scale;
-        view.irradiance.is_finite().then_some(view)
+        (view.irradiance.is_finite() && view.weights[0].is_finite()).then_some(view)
     }
 
     /// Draws a direction toward what is not known to be open, in proportion to what counts at the surface

@@ -133,7 +133,8 @@ pub struct EnvironmentTable<'a> {
     /// For the coarse nodes, those that come first in `masses`, where their light comes from.
     pub lobes: &'a [Lobe],
     /// For each of them the integral of the radiance times the direction, by channel (W m⁻²): its product
-    /// with a normal is the irradiance, where the whole node is above the horizon.
+    /// with a normal is the irradiance, where the whole node is above the horizon. Infinite where `f32` cannot
+    /// hold it.
     pub moments: &'a [[Vec3; 3]],
     /// What directions are drawn by, where nothing is known of what hides the sky.
     pub draws_by: DrawsBy,
@@ -237,7 +238,6 @@ impl EnvironmentTable<'_> {
             && usable(&self.offset)
             && lobes
             && self.moments.len() == self.lobes.len()
-            && self.moments.iter().flatten().all(|m| m.is_finite())
     }
 
     /// Weights of the children of a node; `first` is the index of their level's first node.

@@ -64,7 +64,7 @@ fn rest(map: &EnvironmentMap<'_>, view: &SkyView, normal: Vec3, lets_in: impl Fn
 }
 
 /// What is hidden: a cone.
-const HIDDEN: (Vec3, f32) = (Vec3::new(0.48, 0.6, 0.64), 0.8);
+const HIDDEN: (Vec3, f32) = (Vec3::new(0.48, 0.6, 0.64), 0.6);
 
 /// How far the open part and the samples of the rest, of a density `lie` times as large as is said, are from the
 /// exact irradiance; in standard errors of the samples and a thousandth.
@@ -76,8 +76,8 @@ fn deviation(map: &EnvironmentMap<'_>, normal: Vec3, hides: impl Fn(Vec3) -> boo
     let view = map.view(normal, &clear.unwrap()).unwrap();
     let exact = integral(map, normal, |d| !hides(d))[1];
     let [sum, error] = rest(map, &view, normal, |d| !hides(d));
-    assert!(sum < 0.6 * exact, "{normal}: {sum} {exact}");
-    (f64::from(view.irradiance().g) + sum / lie - exact).abs() / (error + 2e-4 * exact)
+    assert!(sum < 0.9 * exact, "{normal}: {sum} {exact}");
+    (f64::from(view.irradiance().g) + sum / lie - exact).abs() / (error + 1e-4 * exact)
 }
 
 #[test]
@@ -111,5 +111,26 @@ fn an_open_sky_is_a_closed_form() {
         let seen = f64::from(view.irradiance().g) + ring[0];
         assert!((seen - exact[1]).abs() < 5.0 * ring[1] + 5e-5 * exact[1], "{normal}: {seen} {exact:?}");
         assert!(ring[0] < 0.2 * exact[1], "{normal}: {ring:?} {exact:?}");
+    }
+}
+
+/// The closed form of radiances of any size is right, or there is none.
+#[test]
+fn the_closed_form_is_right_or_there_is_none() {
+    let irradiance = |size: f32| {
+        let mut image = sky(64, 33);
+        image.texels.iter_mut().for_each(|texel| *texel = *texel * (size * 1e-4));
+        let tables = tables(&image);
+        let map = map(&image, &tables, Mat3::IDENTITY);
+        let clear = map.clear(Vec3::Y, |part| part.axis.y < 0.5).unwrap();
+        map.view(Vec3::Y, &clear).map(|view| view.irradiance() / size)
+    };
+    let usual = irradiance(1.0).unwrap();
+    for size in [1e-40, 1e-37, 1e-30, 1e-20, 1e20, 1e30, 1e37, 1e38] {
+        let Some(seen) = irradiance(size) else {
+            assert!(!(1e-36..1e36).contains(&size), "{size}");
+            continue;
+        };
+        assert!((seen.g / usual.g - 1.0).abs() < 1e-3, "{size}: {seen:?} {usual:?}");
     }
 }
