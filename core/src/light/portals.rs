@@ -191,6 +191,10 @@ impl<L: Emitter> Emitter for Portals<'_, L> {
         self.light.is_environment()
     }
 
+    fn leaves_to_bsdf(&self) -> bool {
+        self.light.leaves_to_bsdf()
+    }
+
     fn power(&self, scene_radius: f32) -> f32 {
         self.light.power(scene_radius)
     }

@@ -119,7 +119,7 @@ fn an_open_sky_is_a_closed_form() {
 fn the_closed_form_is_right_or_there_is_none() {
     let irradiance = |size: f32| {
         let mut image = sky(64, 33);
-        image.texels.iter_mut().for_each(|texel| *texel = *texel * (size * 1e-4));
+        image.texels.iter_mut().for_each(|texel| *texel *= size * 1e-4);
         let tables = tables(&image);
         let map = map(&image, &tables, Mat3::IDENTITY);
         let clear = map.clear(Vec3::Y, |part| part.axis.y < 0.5).unwrap();
