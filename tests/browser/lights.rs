@@ -24,7 +24,7 @@ fn a_sky_is_turned_and_made_brighter_and_a_link_restores_it() -> Res<()> {
     with_page("turning the sky", |page| {
         page.open("", 1)?;
         page.select("Scene", "morning")?;
-        page.wait("halflight.app.facts.name == 'morning'")?;
+        page.wait("document.getElementById('light').textContent.includes('environment map')")?;
         let index = page.number("halflight.app.lights.findIndex((light) => light.kind == 'map')")?;
         page.select("Which", &index.to_string())?;
         page.render(72, 4)?;
