@@ -55,7 +55,7 @@ fn a_mesh_and_a_tree_that_do_not_fit_are_refused() {
     // Above what the program and a thread take (100 MiB), and below what it comes to with the tree.
     let refused = run(&folder, 230_000, line);
     assert_eq!(refused.code, Some(2), "{refused:?}");
-    assert!(refused.stderr.contains("the tree over 977 202 triangles needs about 196 MiB"), "{refused:?}");
+    assert!(refused.stderr.contains("the tree over 977 202 triangles needs about 136 MiB"), "{refused:?}");
     assert_eq!(folder.names(), ["grid.obj", "scene.xml"]);
 }
 
